@@ -62,8 +62,8 @@ void EventOutputs::require_memory() const {
   if (all_.empty()) return;
   const auto bytes = static_cast<double>(5 * sizeof(double) * all_.size() * all_.back().profile.k.size());
   if (bytes > usable_memory() / 2)
-    throw NumericsError("output.per_event: " + std::to_string(all_.size()) + " outputs need " + digits(bytes / 1e9, 3) +
-                        " GB of memory; try a smaller number");
+    throw NumericsError(std::to_string(all_.size()) + " outputs of slip events need " + digits(bytes / 1e9, 3) +
+                        " GB of memory; fewer for each event are needed");
 }
 
 void EventOutputs::archive(Archive& a) {

@@ -43,7 +43,7 @@ void RunChecks::check_energy(const Balance& balance, Findings& found) const {
                   " sites to its width; " + digits(least_sites_per_width) + " are needed";
     // The error is of fourth order in the spacing.
     const double finer = 0.9 * scaled_.spacing * std::pow(Findings::worth_a_warning / balance.energy_drift, 0.25);
-    sentence += ". Try chain.spacing = " + digits(finer, 2);
+    sentence += ". Try a spacing of " + digits(finer, 2);
   }
   found.violation(balance.energy_drift, sentence);
 }
@@ -84,7 +84,7 @@ void RunChecks::check_observed_fronts(Findings& found) const {
     if (std::fabs(x) > allowed)
       found.sentences.push_back("chain: an observed front at x = " + digits(x) +
                                 " is farther from x = 0 than c carries it in t = " + digits(last.time) +
-                                ": errors of the grid there exceed pulse.threshold = " + digits(schedule.threshold) +
+                                ": errors of the grid there exceed the threshold " + digits(schedule.threshold) +
                                 " of the peak slip velocity");
 }
 
@@ -102,7 +102,7 @@ void RunChecks::check_barrier(Findings& found) const {
       "chain: the grid holds slow dislocations. The largest force on one, " + digits(pushed, 2) + ", is " +
       digits(force / barrier_force(spacing), 2) + " times the barrier of the grid at spacing " + digits(spacing, 3) +
       "; " + digits(enough) +
-      " are needed. Try chain.spacing = " + digits(spacing_with_barrier_below(force / enough, spacing)));
+      " are needed. Try a spacing of " + digits(spacing_with_barrier_below(force / enough, spacing)));
 }
 
 /// Compares the slip at x = 0, u minus u at t = 0, with the integral of the velocity there. The run sampled this
@@ -152,7 +152,7 @@ void RunChecks::check_dislocations(Findings& found) const {
   found.sentences.push_back("chain: " + digits(static_cast<double>(observer_.dislocations_at_start())) +
                             " dislocations at scale " + digits(scale) + ", of which " + digits(slip / step) +
                             " passed x = 0; each adds a slip of " + digits(step) +
-                            ". For an error of 1 %, try chain.scale = " +
+                            ". For an error of 1 %, try scale " +
                             digits(std::pow(10, std::ceil(2 * std::log10(25 * turn / slip)) / 2)));
 }
 

@@ -1,6 +1,7 @@
 #include "chain/scaled_start.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -46,7 +47,7 @@ bool has_exact_length(const ScaledProblem& s) {
 Grid grid_of(const ScaledProblem& s) {
   const double length = s.scale * (s.right - s.left), intervals = std::ceil(length / s.spacing - 1e-9);
   if (!(intervals >= 1 && intervals < 1e15))
-    throw InputError({.key = "chain.spacing",
+    throw InputError({.key = "spacing",
                       .value = digits(s.spacing),
                       .problem = "does not divide a chain of length " + digits(length),
                       .allowed = "> 0, for 1 to 1e15 sites"});
@@ -58,8 +59,7 @@ Grid grid_of(const ScaledProblem& s) {
 }  // namespace
 
 Problem problem_of(const ScaledProblem& s, double share_of_machine) {
-  if (!(s.scale > 0) || !std::isfinite(s.scale))
-    throw InputError({.key = "chain.scale", .value = digits(s.scale), .problem = "out of range", .allowed = "> 0"});
+  assert(s.scale > 0 && std::isfinite(s.scale));
   Problem p;
   p.grid = grid_of(s);
   p.model = s.model;

@@ -1,29 +1,13 @@
 #include "slipfront/friction/friction.hpp"
 
 #include <cmath>
-#include <string>
 #include <utility>
 
-#include "foundation/text/digits.hpp"
 #include "friction/scaling.hpp"
 #include "friction/state/contacts.hpp"
-#include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::friction {
-
-namespace {
-
-bool in_range(const Parameter& p, double value) {
-  return std::isfinite(value) && (p.without_least ? value > p.least : value >= p.least) && value <= p.most;
-}
-
-std::string range_of(const Parameter& p) {
-  const std::string most = std::isfinite(p.most) ? " and <= " + digits(p.most) : ", finite";
-  return (p.without_least ? "> " : ">= ") + digits(p.least) + most;
-}
-
-}  // namespace
 
 Friction::Friction(const Definition& definition, std::vector<double> values, Closure closure, Curve curve)
     : definition_(&definition),
@@ -60,17 +44,6 @@ Friction Friction::scaled_by(double scale) const {
   Friction scaled(*definition_, std::move(values), closure_, curve_);
   check_scaling(*this, scaled, scale);
   return scaled;
-}
-
-void Friction::check() const {
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    const Parameter& p = definition_->parameters[i];
-    if (!in_range(p, values_[i]))
-      throw InputError({.key = "friction." + std::string(p.name),
-                        .value = digits(values_[i]),
-                        .problem = "out of range",
-                        .allowed = range_of(p)});
-  }
 }
 
 std::vector<double> Friction::state_at_start() const {

@@ -23,7 +23,7 @@ std::shared_ptr<const Law> probe_law(const Definition& definition, const std::ve
 }
 
 [[noreturn]] void refuse(const Definition& definition, const std::string& problem) {
-  throw InputError({.key = "friction.law",
+  throw InputError({.key = "friction",
                     .value = std::string(definition.name),
                     .problem = problem,
                     .allowed = "a law whose definition states the Dimension of each parameter: of a force that of "

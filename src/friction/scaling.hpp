@@ -9,11 +9,11 @@ namespace slipfront::friction {
 /// Checks that `scaled` is the friction `original` on a chain whose x and t are stretched by `scale`: its force is that
 /// of `original` divided by `scale`, at every speed and after every history of slip. A law whose parameters state a
 /// wrong Dimension fails. Drawn curves are replaced by one that is defined at every speed.
-/// \throws InputError (key "friction.law") that names the speed at which the forces differ most.
+/// \throws InputError (key "friction") that names the speed at which the forces differ most.
 void check_scaling(const Friction& original, const Friction& scaled, double scale);
 
 /// Checks a law none of whose parameters is a force > 0: it has to have no force.
-/// \throws InputError (key "friction.law")
+/// \throws InputError (key "friction")
 void check_no_force(const Definition& definition, const std::vector<double>& values);
 
 }  // namespace slipfront::friction

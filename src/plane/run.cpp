@@ -65,7 +65,7 @@ void Run::require_steps() const {
   throw budget.error(
       solver_->time(), taken,
       ahead.reason + (too_many ? ", so that the run would take " + digits(ahead.in_all, 2) + " steps" : ""),
-      "weaker friction, fewer cells or slipfront plane --direct may help");
+      "weaker friction, fewer cells or a direct run may help");
 }
 
 bool Run::go(const std::function<bool()>& interrupted) {
@@ -152,7 +152,7 @@ Maps Run::maps() const {
 namespace {
 
 constexpr const char* finer =
-    "more cells (plane.loops or plane.cells), or with --direct a smaller chain.spacing, are needed";
+    "more cells, or in a direct run a smaller spacing of sites, are needed";
 
 /// Whether the energy of a run is large enough to compare its parts.
 bool has_energy(const Solver& solver, const Budget& budget) {

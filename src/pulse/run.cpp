@@ -124,7 +124,7 @@ bool Run::Parts::advance_to(double target, const std::function<bool()>& interrup
     if (last) look_at_end();
     if (budget.exhausted(motion->steps()))
       throw budget.error(motion->time(), motion->steps(), motion->reason_of_short_steps(),
-                         "fewer pulse.cells, an earlier time.end or slipfront chain may help");
+                         "fewer cells, an earlier end or a run of the chain may help");
     return interrupted && interrupted();
   };
   const auto begun = Clock::now();

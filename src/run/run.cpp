@@ -5,6 +5,7 @@
 #include "record/files/unfinished.hpp"
 #include "record/pulses/comparison_file.hpp"
 #include "run/carry_out.hpp"
+#include "setup/solver_errors.hpp"
 #include "slipfront/scenario/files.hpp"
 #include "slipfront/setup/problem.hpp"
 
@@ -16,19 +17,6 @@ template <class Run, class... Arguments>
 std::unique_ptr<Run> begun(const Options& options, const Arguments&... arguments) {
   if (!options.checkpoint) return std::make_unique<Run>(arguments...);
   return std::make_unique<Run>(arguments..., options.checkpoint->solver_state, options.checkpoint->snapshots);
-}
-
-/// Does `task`. Adds the file of the scenario to an error in one of its keys.
-template <class Task>
-auto naming(const std::string& file, const Task& task) {
-  try {
-    return task();
-  } catch (const InputError& error) {
-    Complaint complaint = error.complaint();
-    if (!complaint.file.empty() || complaint.key.find('.') == std::string::npos) throw;
-    complaint.file = file;
-    throw InputError(std::move(complaint));
-  }
 }
 
 }  // namespace
@@ -74,7 +62,7 @@ record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std:
 }
 
 PulsePlan plan_pulse(const scenario::Scenario& scenario) {
-  return naming(scenario.file, [&] {
+  return setup::with_keys(setup::SolverKind::pulse, scenario.file, [&] {
     PulsePlan plan{.problem = setup::pulse_problem(scenario), .schedule = {}, .need = {}, .file = scenario.file};
     plan.schedule = setup::pulse_schedule(scenario, plan.problem);
     plan.need = setup::estimate_of(scenario, plan.problem);
@@ -83,7 +71,7 @@ PulsePlan plan_pulse(const scenario::Scenario& scenario) {
 }
 
 ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine) {
-  return naming(scenario.file, [&] {
+  return setup::with_keys(setup::SolverKind::chain, scenario.file, [&] {
     ChainPlan plan{.chain = setup::chain_problem(scenario),
                    .schedule = setup::pulse_schedule(scenario, setup::stated_problem(scenario)),
                    .need = {},
@@ -95,12 +83,14 @@ ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine
 }
 
 std::unique_ptr<pulse::Run> begin(const PulsePlan& plan, const Options& options) {
-  return naming(plan.file, [&] { return begun<pulse::Run>(options, plan.problem, plan.schedule); });
+  return setup::with_keys(setup::SolverKind::pulse, plan.file,
+                          [&] { return begun<pulse::Run>(options, plan.problem, plan.schedule); });
 }
 
 std::unique_ptr<chain::Run> begin(const ChainPlan& plan, const Options& options) {
   const chain::Execution execution{.threads = options.threads, .ranks = options.ranks};
-  return naming(plan.file, [&] { return begun<chain::Run>(options, plan.chain, plan.schedule, execution); });
+  return setup::with_keys(setup::SolverKind::chain, plan.file,
+                          [&] { return begun<chain::Run>(options, plan.chain, plan.schedule, execution); });
 }
 
 Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& plan, const Options& options) {

@@ -7,6 +7,7 @@
 #include "foundation/clock.hpp"
 #include "foundation/text/digits.hpp"
 #include "setup/estimate.hpp"
+#include "setup/solver_errors.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/setup/problem.hpp"
 
@@ -37,7 +38,11 @@ std::vector<friction::Closure> closures_of(const Comparison& c) {
 pulse::Run pulse_of(const Comparison& c, friction::Closure closure) {
   pulse::Problem problem = c.problem;
   problem.friction = problem.friction.with(closure);
-  return {std::move(problem), c.schedule};
+  return with_keys(SolverKind::pulse, c.file, [&] { return pulse::Run(std::move(problem), c.schedule); });
+}
+
+chain::Run chain_of(const Comparison& c, const chain::ScaledProblem& scaled, int threads) {
+  return with_keys(SolverKind::chain, c.file, [&] { return chain::Run(scaled, c.schedule, {.threads = threads}); });
 }
 
 /// Runs one level to its end; false if stopped.
@@ -59,13 +64,13 @@ bool carry(Run& run, Level& level, const std::function<bool()>& after_step) {
 }  // namespace
 
 Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales) {
-  Comparison c;
+  Comparison c{.file = scenario.file};
   c.problem = pulse_problem(scenario);
   c.schedule = pulse_schedule(scenario, c.problem);
   for (const double scale : checked(std::move(scales), scenario)) {
     scenario.chain.scale = scale;
     c.chains.push_back(chain_problem(scenario));
-    chain::problem_of(c.chains.back());
+    with_keys(SolverKind::chain, scenario.file, [&] { return chain::problem_of(c.chains.back()); });
   }
   require_memory(scenario, c);  // before the closed form, which is observed at once
   c.exact = closed_form(scenario, c.schedule);
@@ -74,7 +79,7 @@ Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales
 
 void begin_levels(const Comparison& c) {
   for (const friction::Closure closure : closures_of(c)) pulse_of(c, closure);
-  for (const chain::ScaledProblem& scaled : c.chains) const chain::Run begun(scaled, c.schedule, {});
+  for (const chain::ScaledProblem& scaled : c.chains) chain_of(c, scaled, 1);
 }
 
 bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, const std::function<void()>& next,
@@ -92,7 +97,7 @@ bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, co
   for (const chain::ScaledProblem& scaled : c.chains) {
     next();
     Level level{.name = "chain-" + digits(scaled.scale), .scale = scaled.scale};
-    chain::Run run(scaled, c.schedule, {.threads = threads});
+    chain::Run run = chain_of(c, scaled, threads);
     level.window = run.window();
     if (!carry(run, level, [&] { return after_step(level.name, run.time(), run.chain().steps()); })) return false;
     level.smooth_window = run.averages().width;

@@ -8,6 +8,7 @@
 #include "foundation/ranks.hpp"
 #include "foundation/text/digits.hpp"
 #include "setup/output_times.hpp"
+#include "setup/solver_errors.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/plane/averaged.hpp"
 #include "slipfront/plane/direct.hpp"
@@ -29,19 +30,6 @@ double largest_slip(const plane::Problem& p, int nx, int ny) {
       largest = std::fmax(largest, p.slip(p.left + (p.right - p.left) * (i + 0.5) / nx,
                                           p.bottom + (p.top - p.bottom) * (j + 0.5) / ny));
   return largest;
-}
-
-/// A complaint of a solver about a part of the problem, with the key of the scenario that gives this part.
-Complaint in_keys_of(const scenario::Scenario& s, Complaint complaint) {
-  if (!complaint.file.empty()) return complaint;
-  complaint.file = s.file;
-  if (complaint.key == "slip") complaint.key = s.initial.file.empty() ? "initial.formula" : "initial.file";
-  if (complaint.key == "hold") complaint.key = "initial.hold";
-  if (complaint.key == "fixed" || complaint.key == "left" || complaint.key == "edges" || complaint.key == "cells")
-    complaint.key = "plane." + complaint.key;
-  if (complaint.key == "scale" || complaint.key == "spacing") complaint.key = "chain." + complaint.key;
-  if (complaint.key == "resolution") complaint.key = "plane.loops";
-  return complaint;
 }
 
 }  // namespace
@@ -70,7 +58,9 @@ double scale_of_lines(const scenario::Scenario& s) {
 
 std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s, Lines lines, int threads, const Ranks* ranks) {
   require_plane(s);
-  try {
+  const SolverKind kind = lines == Lines::averaged ? SolverKind::plane : SolverKind::plane_direct;
+  const char* const slip_key = s.initial.file.empty() ? "initial.formula" : "initial.file";
+  const auto make = [&]() -> std::unique_ptr<plane::Solver> {
     if (lines == Lines::averaged && s.plane->on_grid)
       return std::make_unique<plane::GridSolver>(s.plane->problem, s.plane->cells);
     if (lines == Lines::averaged)
@@ -89,9 +79,8 @@ std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s, Lines l
                                    digits(usable_memory() / 1e9, 3) + " GB",
                         .allowed = "a smaller scale"});
     return std::make_unique<plane::DirectSolver>(s.plane->problem, options);
-  } catch (const InputError& error) {
-    throw InputError(in_keys_of(s, error.complaint()));
-  }
+  };
+  return with_keys(kind, s.file, make, slip_key);
 }
 
 namespace {

@@ -52,6 +52,15 @@ void require_averages(const scenario::Scenario& s) {
           "the averages have a contact a(x) that stays: the pressure of a train whose contacts or pores follow theta "
           "is not among them (docs/friction.md)",
           "slipfront chain, which has both exactly");
+  if (!s.friction.defined_by(s.friction.closure()))
+    refuse("friction.closure", "paper", "is not defined for a law with state variables", "consistent");
+  const bool unresolved = s.friction.acts() && s.friction.steep_at_rest() && !s.friction.sticks();
+  if (s.pulse.periodic && (s.friction.state_size() > 0 || unresolved))
+    refuse("pulse.periodic", "true",
+           unresolved ? "friction whose slope is infinite at rest, as of exponents below 1, leaves no time step short "
+                        "enough on a ring"
+                      : "a pulse run does not support state variables of friction on a ring",
+           "false, or slipfront chain");
   if (!s.substrate)
     refuse("interface.contact", "0", "without a substrate there are no dislocations to average over",
            "slipfront chain, or a contact > 0");
@@ -105,6 +114,12 @@ pulse::Problem stated_problem(const scenario::Scenario& s) {
          .allowed = "[domain] left = ..., right = ..."});
   p.left = s.domain.left.value_or(-reach.left);
   p.right = s.domain.right.value_or(reach.right);
+  if (!(p.left < p.right))
+    throw InputError({.file = s.file,
+                      .key = s.domain.left ? "domain.left" : "domain.right",
+                      .value = digits(s.domain.left ? p.left : p.right),
+                      .problem = "out of range",
+                      .allowed = s.domain.left ? "< " + digits(p.right) : "> " + digits(p.left)});
   p.left_end = s.pulse.left;
   p.right_end = s.pulse.right;
   p.periodic = s.pulse.periodic;

@@ -89,7 +89,7 @@ TEST(ChainChecks, WarnsOfTooFewDislocations) {
     run.go();
     std::string all;
     for (const std::string& warning : run.warnings()) all += warning + "\n";
-    EXPECT_EQ(all.find("chain.scale") != std::string::npos, scale < 100) << all;
+    EXPECT_EQ(all.find("try scale") != std::string::npos, scale < 100) << all;
   }
 }
 

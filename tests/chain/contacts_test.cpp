@@ -322,11 +322,11 @@ TEST(Contacts, RejectsOptionsThatContactsDoNotSupport) {
   Problem p = with_contacts(rate_and_state({0.05, 0.01, 0.015, 1, 1}, {0.1, 1, 0, 0, 0}));
   p.grid = {0, 0.3, 64};
   p.boundary.right = chain::End::absorbing;
-  refuses(p, "chain.right");
+  refuses(p, "right end");
   p.boundary.right = chain::End::free;
   p.implicit = true;
   p.substrate = false;
-  refuses(p, "friction.contact_ageing");
+  refuses(p, "contact ageing");
   p.implicit = false;
   p.substrate = true;
   p.grid.spacing = 0.62;  // enough for a = 1, too coarse for the largest a that ageing can reach

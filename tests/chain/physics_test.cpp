@@ -287,9 +287,6 @@ TEST(ChainInput, RejectsInvalidNumbers) {
   p.grid.sites = 90;
   refused(p, kink, "does not fit the grid");
   refused(good, exact::motion_of([](double x, double) { return -6 * x; }, good.grid, 0), "too coarse");
-  p = good;
-  p.friction = friction::viscous(-1);
-  refused(p, kink, "friction");
   EXPECT_THROW(average(chain::ExplicitChain(good, kink), 19, 4, 0), InputError);
   EXPECT_THROW(chain::ExplicitChain(good, Levels{0, {1, 2}, {1, 2}}), InputError);
 }

@@ -121,7 +121,6 @@ TEST(FrictionScaling, DividesTheForceOfEveryLawByTheScale) {
                                   law_values(*law, word, {.force = 0.3, .slip = 2.3, .time = 1.7, .velocity = 0.05}),
                                   closure, law->curve == CurveSource::none ? Curve() : Curve(curve));
           if (!friction.defined_by(closure)) continue;
-          ASSERT_NO_THROW(friction.check()) << law->name;
           EXPECT_EQ(friction.acts(), !law->parameters.empty()) << law->name;
           Pair pair(friction, scale);
           pair.expect_equal_numbers();
@@ -169,7 +168,7 @@ std::string refusal_of(const Definition& law, const std::vector<double>& values)
     EXPECT_NO_THROW((void)Friction(law, values).scaled_by(1));
     (void)Friction(law, values).scaled_by(100);
   } catch (const InputError& error) {
-    EXPECT_EQ(error.complaint().key, "friction.law");
+    EXPECT_EQ(error.complaint().key, "friction");
     EXPECT_EQ(error.complaint().value, "example");
     return error.complaint().problem;
   }

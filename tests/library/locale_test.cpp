@@ -10,7 +10,6 @@
 #include <string>
 
 #include "foundation/machine.hpp"
-#include "pulse/solver.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
@@ -93,9 +92,8 @@ TEST(Locale, ChangesNoMessage) {
   EXPECT_NE(message([] { elliptic::at_psi(-1234.5); }).find("-1234.5"), std::string::npos);
   EXPECT_NE(message([] { medium::plastic_contact_ratio(1234.5); }).find("1234.5"), std::string::npos);
   EXPECT_NE(message([] {
-              pulse::Problem problem;
-              problem.tolerance = 1234.5;
-              pulse::Solver(std::move(problem));
+              scenario::read_scenario("[initial]\nstress_left = 1\nstress_right = 0\n", "a.toml",
+                                      {"pulse.tolerance=1234.5"}, nullptr);
             }).find("1234.5"),
             std::string::npos);
 }

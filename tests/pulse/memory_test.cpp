@@ -108,10 +108,6 @@ TEST(PulseState, DenseTrainsRunIntoSparseOnes) {
   }
 }
 
-TEST(PulseState, RefusesTheClosureForWhichThereIsNoAverage) {
-  EXPECT_THROW(pulse::Solver(step(rate_and_state().with(friction::Closure::paper), 40)), InputError);
-}
-
 /// Nothing moves under a force below the strength. The fluxes of a smooth stress leak a little.
 TEST(PulseState, DoesNotMoveUnderAForceBelowTheStrength) {
   const auto slip_with = [](const friction::Friction& friction) {

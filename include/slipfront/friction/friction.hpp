@@ -38,8 +38,6 @@ class Friction {
   /// This friction on a chain whose x and t are scaled up by `scale`.
   /// \throws InputError if the force does not scale, because a parameter of the law has a wrong Dimension.
   Friction scaled_by(double scale) const;
-  /// \throws InputError for a parameter out of its range.
-  void check() const;
 
   /// Whether there is any force.
   bool acts() const { return acts_; }

@@ -31,10 +31,11 @@ struct Level {
 
 /// The checked problems of all levels.
 struct Comparison {
-  pulse::Problem problem;
-  output::Schedule schedule;
-  std::optional<Level> exact;  ///< the closed form, if there is one
-  std::vector<chain::ScaledProblem> chains;
+  std::string file;  ///< file of the scenario
+  pulse::Problem problem = {};
+  output::Schedule schedule = {};
+  std::optional<Level> exact = {};  ///< the closed form, if there is one
+  std::vector<chain::ScaledProblem> chains = {};
   std::size_t levels() const { return chains.size() + (exact ? 3 : 2); }
 };
 

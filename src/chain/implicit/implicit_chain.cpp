@@ -190,7 +190,7 @@ void ImplicitChain::check_progress() {
   now_.window_start = now_.time;
   if (advanced > explicit_step) return;
   fail("the last " + std::to_string(window) + " implicit steps advanced the chain by " + digits(advanced, 2) +
-       " only; an explicit step is " + digits(explicit_step, 2) + ". Try a larger chain.tolerance, or check for " +
+       " only; an explicit step is " + digits(explicit_step, 2) + ". Try a larger tolerance, or check for " +
        "forces that change faster than the chain can move");
 }
 

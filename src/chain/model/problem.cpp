@@ -20,12 +20,12 @@ namespace {
 void check_ends(const Problem& p) {
   const Boundary& ends = p.boundary;
   if (!p.friction.changes_contacts() || ends.periodic) return;
-  for (const auto& [end, key] : {std::pair{ends.left, "chain.left"}, {ends.right, "chain.right"}})
+  for (const auto& [end, key] : {std::pair{ends.left, "left end"}, {ends.right, "right end"}})
     if (end == End::absorbing)
       throw InputError({.key = key,
                         .value = "absorbing",
                         .problem = "the train outside an absorbing end has contacts that do not change",
-                        .allowed = "free or fixed, or no friction.contact_ageing and no friction.dilatancy"});
+                        .allowed = "free or fixed, or friction without contact_ageing and dilatancy"});
 }
 
 bool plain(const Problem& p) { return !p.forcing && p.friction.linear_coefficient(); }
@@ -82,7 +82,6 @@ void check(const Problem& p, double share_of_machine) {
   if (!(h > 0) || !std::isfinite(h)) refuse("spacing", h, "out of range", "> 0, finite");
   if (!std::isfinite(p.grid.left)) refuse("left", p.grid.left, "out of range", "finite");
   if (p.grid.sites < 8) refuse("sites", static_cast<double>(p.grid.sites), "too few", ">= 8");
-  p.friction.check();
   check_ends(p);
   const double need = memory_needed(p) * share_of_machine, have = usable_memory();
   if (need > have)

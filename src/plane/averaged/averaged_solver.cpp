@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <optional>
 #include <string>
 #include <utility>
@@ -74,28 +75,22 @@ struct AveragedSolver::Parts {
 AveragedSolver::AveragedSolver(const Problem& problem, const Resolution& resolution) {
   if (problem.hold || problem.nucleation)
     throw InputError({.key = problem.hold ? "hold" : "nucleation",
-                      .problem = "the averaged equations on a plane begin with free lines everywhere",
-                      .allowed = "slipfront plane --direct"});
+                      .problem = "the averaged equations on a plane begin with free lines everywhere"});
   if (problem.friction.state_size() > 0)
-    throw InputError({.key = "friction.law",
+    throw InputError({.key = "friction",
                       .value = std::string(problem.friction.name()),
                       .problem = "the averaged equations on a plane do not follow the state of friction",
-                      .allowed = "a law without state variables, or slipfront plane --direct"});
+                      .allowed = "a law without state variables"});
   if (problem.friction.steep_at_rest())
-    throw InputError({.key = "friction.law",
+    throw InputError({.key = "friction",
                       .value = std::string(problem.friction.name()),
                       .problem = "the averaged equations on a plane do not follow friction that holds slip at rest",
-                      .allowed = "a law whose force rises smoothly from rest, or slipfront plane --direct"});
+                      .allowed = "a law whose force rises smoothly from rest"});
   if (problem.edges != Edges::free)
     throw InputError({.key = "edges",
                       .problem = "the averaged equations on a plane end where the front reaches an edge",
-                      .allowed = "slipfront plane --direct, or edges that the front does not reach"});
-  const bool enough = resolution.loops >= 4 && (resolution.angles == 1 || resolution.angles >= 8);
-  if (!enough)
-    throw InputError({.key = "resolution",
-                      .value = std::to_string(resolution.loops) + " x " + std::to_string(resolution.angles),
-                      .problem = "too few cells for the interpolation between them",
-                      .allowed = "at least 4 loops, and 1 angle or at least 8"});
+                      .allowed = "free edges, which the front does not reach"});
+  assert(resolution.loops >= 4 && (resolution.angles == 1 || resolution.angles >= 8));
   parts_ = std::make_unique<Parts>(problem, resolution);
 }
 

@@ -114,8 +114,8 @@ void LoopEquations::solve(double t, std::vector<double>& s) {
     };
     if (!(normal_spacing_[i] > 0))
       throw NumericsError(where() +
-                          "dislocation lines cross; another plane.loops, plane.solver = \"grid\" or slipfront "
-                          "plane --direct may help");
+                          "dislocation lines cross; more or fewer loops, the solver \"grid\" or a direct run "
+                          "may help");
     try {
       const double guess = std::atanh(std::fmin(std::fmax(s[i], 1e-300), 1 - 1e-16));
       const modulation::SolvedState at = modulation::solve_state({normal_spacing_[i], normal_momentum_[i]}, guess);

@@ -23,7 +23,7 @@ bool is_viscous(const Problem& p) { return p.friction.linear_coefficient().value
 
 void check(const Problem& p) {
   if (p.friction.changes_contacts())
-    throw InputError({.key = "friction.law",
+    throw InputError({.key = "friction",
                       .value = std::string(p.friction.name()),
                       .problem = "on a plane, friction cannot change contacts or pores",
                       .allowed = "a law without these effects"});
@@ -237,7 +237,7 @@ bool DirectSolver::advance_to(double time, const std::function<bool()>& interrup
   const double noise =
       std::fmax(1e-3 * p.elastic_at_start, no_energy * static_cast<double>(sites()) * p.sites.hx * p.sites.hy);
   check_budget(energies(), noise / (p.sites.scale * p.sites.scale), time,
-               "a smaller chain.spacing or a larger chain.scale is needed");
+               "a smaller spacing of sites or a larger scale is needed");
   return true;
 }
 

@@ -1,6 +1,7 @@
 #include "plane/direct/sites.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "foundation/text/digits.hpp"
@@ -65,7 +66,7 @@ std::size_t first_of(int number, int bands, std::size_t rows) {
 }  // namespace
 
 Counts count_sites(const Problem& p, double scale, double spacing) {
-  if (!(scale > 0 && std::isfinite(scale))) throw refusal("scale", scale, "out of range", "a finite number > 0");
+  assert(scale > 0 && std::isfinite(scale));
   if (!(spacing > 0 && spacing <= 0.5)) throw refusal("spacing", spacing, "out of range", "> 0 and <= 0.5");
   const double widest = spacing / largest_contact(p);
   const Counts n{std::ceil((p.right - p.left) * scale / widest), std::ceil((p.top - p.bottom) * scale / widest)};

@@ -24,7 +24,7 @@ void check(const Problem& p, int cells) {
                       .problem = "too few cells",
                       .allowed = "at least " + std::to_string(fewest)});
   if (p.friction.changes_contacts())
-    throw InputError({.key = "friction.law",
+    throw InputError({.key = "friction",
                       .value = std::string(p.friction.name()),
                       .problem = "on a plane, friction cannot change contacts or pores",
                       .allowed = "a law without these effects"});
@@ -50,7 +50,7 @@ void check_edges(const Problem& p, const std::vector<double>& slip, const Cells&
     if (cells.at_edge(i, j) && slip[cell] > 0)
       throw InputError({.key = "edges",
                         .problem = "the averaged solver has no such edges where there is slip at t = 0",
-                        .allowed = "free edges, or slipfront plane --direct"});
+                        .allowed = "free edges"});
   });
 }
 
@@ -154,7 +154,7 @@ bool GridSolver::advance_to(double time, const std::function<bool()>& interrupte
   if (begin > p.motion.time && begin < time && !advance(begin)) return false;
   if (!advance(time)) return false;
   constexpr double noise = 0.02;  // fraction of the energy at the start, of the error at the front
-  check_budget(energies(), noise * p.elastic_at_start, time, "a larger plane.cells is needed");
+  check_budget(energies(), noise * p.elastic_at_start, time, "more cells are needed");
   return true;
 }
 

@@ -82,8 +82,7 @@ void GridSteps::refuse_steep_edge(std::size_t cell) const {
   throw InputError({.key = "hold",
                     .problem = "the slip ends with the gradient " + digits(gradient, 3) + " at x = " + digits(at.x, 4) +
                                ", y = " + digits(at.y, 4) + ", where a static load would be infinite",
-                    .allowed = "a slip that falls to 0 with a gradient below " + digits(gradient_ahead * a, 2) +
-                               ", or slipfront plane --direct"});
+                    .allowed = "a slip that falls to 0 with a gradient below " + digits(gradient_ahead * a, 2)});
 }
 
 /// Nothing holds the lines in the nucleation patch any more.

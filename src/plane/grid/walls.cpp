@@ -58,7 +58,7 @@ void Walls::refuse_unseen(const Problem& problem) const {
         throw InputError({.key = "fixed",
                           .problem = "the held region at x = " + digits(x, 4) + ", y = " + digits(y, 4) +
                                      " lies between the centres of cells",
-                          .allowed = "more plane.cells, or a larger region"});
+                          .allowed = "more cells, or a larger region"});
       }
   });
 }

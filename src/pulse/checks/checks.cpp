@@ -68,7 +68,7 @@ void Checks::check_slip(output::Findings& found) const {
     const double size = std::max({largest_slip(v), slip_.size(), 2 * pi * contact_doubt()});
     found.violation(beyond / size, "pulse: slip at x = 0 is " + digits(slip->by_place) +
                                        ", the integral of the slip velocity there " + digits(slip->by_velocity) +
-                                       "; more pulse.cells help");
+                                       "; more cells help");
   }
 }
 
@@ -78,7 +78,7 @@ void Checks::check_count(output::Findings& found) const {
   const double uncounted = conservation_error(solver_);
   if (!(uncounted <= output::Findings::wrong))
     found.sentences.push_back("pulse: the states of the cells hold " + digits(100 * uncounted) +
-                              " % more or fewer dislocations than there are; more pulse.cells help");
+                              " % more or fewer dislocations than there are; more cells help");
 }
 
 void Checks::check_energy(output::Findings& found) const {
@@ -89,7 +89,7 @@ void Checks::check_energy(output::Findings& found) const {
   const double share_created = created / (moved ? motion : at_start_.all());
   found.violation(worth * share_created, "pulse: energy was created, " + digits(100 * share_created) +
                                              (moved ? " % of the energy of motion" : " % of the stored energy") +
-                                             "; more pulse.cells help");
+                                             "; more cells help");
 
   const double lost = std::fmax(e.residual - energy_doubt(), 0.0), share = lost > 0 ? lost / (motion + lost) : 0;
   const Cells& cells = solver_.cells();
@@ -97,7 +97,7 @@ void Checks::check_energy(output::Findings& found) const {
     found.sentences.push_back("pulse: dislocations overtake each other from t = " + digits(cells.crossing_time) +
                               " at x = " + digits(cells.crossing_position) +
                               " on, where one train per position is not enough; " + digits(100 * share) +
-                              " % of the energy of motion is lost there. Compare with slipfront chain");
+                              " % of the energy of motion is lost there. Compare with a run of the chain");
 }
 
 }  // namespace slipfront::pulse

@@ -75,7 +75,7 @@ std::vector<Piece> pieces_of(const Problem& problem) {
   const auto stressed = [](const Piece& piece) { return piece.stress.front() > 0; };
   if (std::none_of(pieces.begin(), pieces.end(), stressed))
     throw InputError(
-        {.key = "initial", .problem = "no stress anywhere in the domain", .allowed = "stress > 0 somewhere"});
+        {.key = "stress", .problem = "no stress anywhere in the domain", .allowed = "stress > 0 somewhere"});
   return pieces;
 }
 

@@ -163,16 +163,16 @@ output::Findings ManyTrains::findings(const std::vector<output::Snapshot>& snaps
     const double excess = difference - 3 * slip->sampling - rounding * along.count();
     found.violation(excess / std::fmax(largest, state_.slip.size()),
                     "pulse: slip at x = 0 is " + digits(slip->by_place) + ", the integral of the slip velocity there " +
-                        digits(slip->by_velocity) + "; more pulse.cells help");
+                        digits(slip->by_velocity) + "; more cells help");
   }
   const double uncounted = along.conservation_error();
   found.violation(uncounted, "pulse: the trains hold " + digits(100 * uncounted) +
-                                 " % more or fewer dislocations than there are; more pulse.cells help");
+                                 " % more or fewer dislocations than there are; more cells help");
   constexpr double worth = 0.01;  // results count as wrong if as much energy is created or lost as moves
   const double energy = std::fabs(snapshots.back().energy.residual) / motion;
   if (motion > 0)
     found.violation(worth * energy, "pulse: energy is not conserved, by " + digits(100 * energy) +
-                                        " % of the energy of motion; more pulse.cells help");
+                                        " % of the energy of motion; more cells help");
   return found;
 }
 

@@ -83,7 +83,7 @@ bool adjust_ends(const Problem& problem, FreeEdges free, Cells& cells) {
     for (int i = 0; continued && inside > 0; ++i) {
       if (i == most_at_once)
         throw NumericsError("t = " + digits(cells.time) + ": the train moved away from an end of the domain by " +
-                            digits(inside) + " in one step; more pulse.cells or a larger domain help");
+                            digits(inside) + " in one step; more cells or a larger domain help");
       fill_end(problem, cells, left);
       changed = true;
       inside -= cells.width(left ? 0 : cells.size() - 1);

@@ -135,7 +135,7 @@ void refuse_narrow_stress(const std::function<double(double)>& stress, double fr
   for (int i = 1; i < finer; ++i) {
     const double x = std::lerp(from, to, static_cast<double>(i) / finer);
     if (stress(x) > 0)
-      throw InputError({.key = "initial",
+      throw InputError({.key = "stress",
                         .problem = "the stress at x = " + digits(x) + " is on a stretch narrower than 1 / " +
                                    std::to_string(gap_samples) + " of the domain",
                         .allowed = "wider stretches of stress, or a smaller domain"});
@@ -159,7 +159,7 @@ std::vector<Stressed> stressed_stretches(const std::function<double(double)>& st
   found.erase(std::remove_if(found.begin(), found.end(), point), found.end());
   if (found.empty())
     throw InputError(
-        {.key = "initial", .problem = "no stress anywhere in the domain", .allowed = "stress > 0 somewhere"});
+        {.key = "stress", .problem = "no stress anywhere in the domain", .allowed = "stress > 0 somewhere"});
   return found;
 }
 

@@ -1,5 +1,6 @@
 #include "pulse/grid/start.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -12,34 +13,6 @@
 namespace slipfront::pulse {
 
 using std::numbers::pi;
-
-void check(const Problem& p) {
-  const auto refuse = [](const char* key, double value, const char* allowed) {
-    throw InputError({.key = key, .value = digits(value), .problem = "out of range", .allowed = allowed});
-  };
-  if (!(p.left < p.right) || !std::isfinite(p.right - p.left)) refuse("domain.left", p.left, "left < right, finite");
-  if (p.cells < 4) refuse("pulse.cells", p.cells, ">= 4");
-  if (!(p.tolerance > 0 && p.tolerance < 1)) refuse("pulse.tolerance", p.tolerance, "0 < tolerance < 1");
-  p.friction.check();
-  if (!p.friction.defined_by(p.friction.closure()))
-    throw InputError(
-        {.key = "friction.closure",
-         .value = "paper",
-         .problem = "is not defined for a law with state variables, such as " + std::string(p.friction.name()),
-         .allowed = "consistent"});
-  if (p.friction.state_size() > 0 && p.periodic)
-    throw InputError({.key = "pulse.periodic",
-                      .value = "true",
-                      .problem = "a pulse run does not support state variables of friction on a ring",
-                      .allowed = "false, or a chain run"});
-  if (p.periodic && p.friction.acts() && p.friction.steep_at_rest() && !p.friction.sticks())
-    throw InputError({.key = "pulse.periodic",
-                      .value = "true",
-                      .problem =
-                          "friction whose slope is infinite at rest, as of exponents below 1, leaves no time step "
-                          "short enough on a ring",
-                      .allowed = "false, or a chain run"});
-}
 
 namespace {
 
@@ -58,7 +31,7 @@ void refuse_jumps(const std::function<double(double)>& contact, double left, dou
       (first ? at_b : at_a) = at_middle;
     }
     if (std::fabs(at_b - at_a) > whole / 2)
-      throw InputError({.key = "interface.contact",
+      throw InputError({.key = "contact",
                         .problem = "jumps from " + digits(from) + " to " + digits(to) + " at x = " + digits(a),
                         .allowed = "a continuous profile, such as tanh of a width of some cells"});
   }
@@ -67,15 +40,16 @@ void refuse_jumps(const std::function<double(double)>& contact, double left, dou
 }  // namespace
 
 Start start_of(const Problem& problem) {
-  check(problem);
+  assert(problem.left < problem.right && problem.cells >= 4 && problem.tolerance > 0);
+  assert(problem.friction.defined_by(problem.friction.closure()));
   if (problem.contact) refuse_jumps(problem.contact, problem.left, problem.right);
   const Layout layout = lay_cells(
       problem.stress, problem.left, problem.right, problem.cells, problem.corner,
       {!problem.periodic && problem.left_end == End::free, !problem.periodic && problem.right_end == End::free});
   if (problem.periodic && (layout.left_free || layout.right_free))
-    throw InputError({.key = "pulse.periodic",
+    throw InputError({.key = "periodic",
                       .problem = "there is no stress at an end of the domain",
-                      .allowed = "a ring that is stressed where its ends meet: move domain.left and domain.right"});
+                      .allowed = "a ring that is stressed where its ends meet"});
   Cells cells;
   cells.charge = layout.charge;
   const std::size_t n = layout.charge.size();
@@ -88,7 +62,7 @@ Start start_of(const Problem& problem) {
     const double local = 2 * pi * cells.charge[i] / (a * cells.width(i));
     if (!(local >= train::smallest_stress))
       throw InputError(
-          {.key = problem.contact ? "interface.contact" : "initial",
+          {.key = problem.contact ? "contact" : "stress",
            .problem = "stress over contact ratio is " + digits(local) + " at x = " + digits(layout.faces[i]),
            .allowed = "at least 0.0045 where there is stress: dislocations farther apart have no psi"});
     cells.s[i] = std::tanh(train::psi_of_stress(local));

@@ -6,14 +6,12 @@
 
 namespace slipfront::pulse {
 
-/// \throws InputError for settings that no run can have.
-void check(const Problem& problem);
-
 /// The cells of a problem at t = 0, at rest.
 struct Start {
   Cells cells;
   FreeEdges free;
 };
+/// \throws InputError if the cells have no stress that a double can hold, or a contact that jumps.
 Start start_of(const Problem& problem);
 
 }  // namespace slipfront::pulse
