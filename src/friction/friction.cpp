@@ -26,7 +26,22 @@ Friction::Friction(const Definition& definition, std::vector<double> values, Clo
   at_rest_ = law_->strength(0, state_at_start());
 }
 
-Friction Friction::with(Closure closure) const { return {*definition_, values_, closure, curve_}; }
+Friction Friction::with(Closure closure) const {
+  Friction other(*definition_, values_, closure, curve_);
+  other.varying_ = varying_;
+  return other;
+}
+
+Friction Friction::with(std::string_view parameter, AlongInterface value) const {
+  Friction other = *this;
+  other.varying_.insert_or_assign(std::string(parameter), std::move(value));
+  return other;
+}
+
+double Friction::factor(double x, double y) const {
+  const auto varying = varying_.find("coefficient");
+  return varying == varying_.end() ? 1 : varying->second(x, y) / parameter("coefficient");
+}
 
 double Friction::parameter(std::string_view name) const {
   for (std::size_t i = 0; i < values_.size(); ++i)
@@ -35,13 +50,18 @@ double Friction::parameter(std::string_view name) const {
 }
 
 Friction Friction::scaled_by(double scale) const {
+  const auto in_scale = [scale](double value, Dimension dimension) {
+    if (dimension == Dimension::force) return value / scale;
+    return dimension == Dimension::slip || dimension == Dimension::time ? value * scale : value;
+  };
   std::vector<double> values = values_;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const Dimension dimension = definition_->parameters[i].dimension;
-    if (dimension == Dimension::force) values[i] /= scale;
-    if (dimension == Dimension::slip || dimension == Dimension::time) values[i] *= scale;
-  }
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = in_scale(values[i], definition_->parameters[i].dimension);
   Friction scaled(*definition_, std::move(values), closure_, curve_);
+  for (const auto& [name, value] : varying_)
+    scaled.varying_.emplace(name, [=, dimension = definition_->find(name)->dimension, at = value](double x, double y) {
+      return in_scale(at(x / scale, y / scale), dimension);
+    });
   check_scaling(*this, scaled, scale);
   return scaled;
 }

@@ -1,9 +1,13 @@
 #pragma once
 /// \file
-/// The friction of a problem: a law, its parameters, and the closure of its average. Copies are cheap.
+/// The friction of a problem: a law, its parameters, which may vary along the interface, and the closure of its average.
+/// Copies are cheap.
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +16,9 @@
 namespace slipfront::friction {
 
 struct Contacts;
+
+/// The value of a parameter at a position, in the unit of the model. y is 0 on a line.
+using AlongInterface = std::function<double(double x, double y)>;
 
 class Friction {
  public:
@@ -30,6 +37,10 @@ class Friction {
   const StateEvolution& evolution() const { return law_->evolution(); }
   Closure closure() const { return closure_; }
   Friction with(Closure closure) const;
+  /// This friction with a parameter that varies. Solvers support this for the coefficient of viscous friction on a plane.
+  Friction with(std::string_view parameter, AlongInterface value) const;
+  /// The force at a position over the force of the law with its own coefficient. It is 1 unless the coefficient varies.
+  double factor(double x, double y) const;
   /// Whether an average by this closure is defined. The paper's closure is undefined for laws with state variables.
   bool defined_by(Closure closure) const { return closure == Closure::consistent || state_size() == 0; }
 
@@ -81,6 +92,7 @@ class Friction {
  private:
   const Definition* definition_;
   std::vector<double> values_;
+  std::map<std::string, AlongInterface, std::less<>> varying_;  ///< parameters that vary, by name
   Curve curve_;
   Closure closure_ = Closure::consistent;
   std::shared_ptr<const Law> law_;

@@ -38,15 +38,11 @@ struct Problem {
   /// The interface is held where this is not 0. null: nowhere.
   std::function<double(double x, double y)> fixed;
   friction::Friction friction;
-  /// The factor >= 0 of the force of viscous friction at a position. Other laws have none. null: 1
-  std::function<double(double x, double y)> friction_share;
   std::function<double(double x, double y, double t)> forcing;  ///< F; null: none
   std::function<double(double x, double y)> contact;            ///< relative contact ratio a > 0; null: 1
   bool hold = false;  ///< whether a static load balances the initial state, which is at rest then
   std::optional<Nucleation> nucleation;
   Edges edges = Edges::free;
-
-  double share_of_friction(double x, double y) const { return friction_share ? friction_share(x, y) : 1; }
 
   /// Whether nucleation has begun at a time.
   bool nucleation_has_begun(double time) const { return nucleation && time >= nucleation->time; }

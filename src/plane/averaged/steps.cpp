@@ -42,7 +42,7 @@ void LoopSteps::find_strengths() {
   const std::optional<double> C = problem_.friction.linear_coefficient();
   for (std::size_t i = 0; i < loops_.loss.size(); ++i) {
     const Point at = equations_.centre(i);
-    const double share = problem_.share_of_friction(at.x, at.y);
+    const double share = problem_.friction.factor(at.x, at.y);
     if (C && problem_.friction.closure() == friction::Closure::consistent) {
       loops_.loss[i] = *C * share;
       continue;

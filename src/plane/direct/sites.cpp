@@ -53,7 +53,7 @@ void fill(const Problem& p, Sites& sites) {
       return a * a;
     });
   if (const double C = p.friction.linear_coefficient().value_or(0); C > 0)
-    sites.viscous = at_each(sites, [&](double x, double y) { return C * p.share_of_friction(x, y) / sites.scale; });
+    sites.viscous = at_each(sites, [&](double x, double y) { return C * p.friction.factor(x, y) / sites.scale; });
   if (p.fixed) sites.moves = at_each(sites, [&](double x, double y) { return p.fixed(x, y) == 0 ? 1.0 : 0.0; });
   if (p.edges == Edges::fixed) fix_edges(sites);
 }

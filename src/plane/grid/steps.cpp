@@ -117,7 +117,7 @@ void GridSteps::find_strengths() {
     const Point at = cells_.centre(cell);
     const double size = std::fabs(motion_.now.action[cell]);
     double force = 0;
-    const double share = problem_.share_of_friction(at.x, at.y);
+    const double share = problem_.friction.factor(at.x, at.y);
     if (is_linear) {
       motion_.strength[cell] = *C * share;
       force = motion_.strength[cell] * size;

@@ -153,7 +153,7 @@ void read_formulas(const Document& document, const std::string& coefficient, Sce
   share.length = friction.in_file(ModelUnit::position);
   share.least = 0;
   share.ratio = ratio;
-  plane.problem.friction_share = share;
+  scenario.friction = scenario.friction.with("coefficient", share);
 }
 
 void read_nucleation(const Document& document, Scenario& scenario) {
@@ -183,7 +183,8 @@ void try_out(const Plane& plane, double end) {
     for (int i = 0; i < samples; ++i) {
       const double x = p.left + (p.right - p.left) * i / (samples - 1),
                    y = p.bottom + (p.top - p.bottom) * j / (samples - 1);
-      for (const auto* function : {&p.slip, &p.fixed, &p.friction_share, &p.contact})
+      p.friction.factor(x, y);
+      for (const auto* function : {&p.slip, &p.fixed, &p.contact})
         if (*function) (*function)(x, y);
       if (!p.forcing) continue;
       p.forcing(x, y, 0);
