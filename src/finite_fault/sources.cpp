@@ -1,6 +1,8 @@
 #include "finite_fault/sources.hpp"
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <string_view>
 
 #include "foundation/text/characters.hpp"
@@ -59,36 +61,43 @@ std::string earthquake_of(const Observation& o) {
   return day.empty() || name.empty() ? std::string() : name + ", " + day + ",";
 }
 
-}  // namespace
+/// The stress in Pa that each source of an earthquake means, with its file and line.
+struct SourceStress {
+  std::string place;
+  double stress_pa;
+};
+using ByEarthquake = std::map<std::string, std::vector<SourceStress>>;
 
-void Sources::add(const Observation& o, const medium::Defaults& defaults) try {
+void add_source(ByEarthquake& sources, const Observation& o, const medium::Defaults& defaults) try {
   const std::string earthquake = earthquake_of(o);
   if (earthquake.empty()) return;
   const Estimate e = estimate(o, defaults, true);
   const auto& stress = e.stress_pa ? e.stress_pa : e.stress_pa_bound;
   if (!stress) return;
-  by_earthquake_[earthquake].push_back({o.file + ":" + std::to_string(o.line), stress->value});
+  sources[earthquake].push_back({o.file + ":" + std::to_string(o.line), stress->value});
 } catch (const InputError&) {  // the result of this entry reports the error
 }
 
-void Sources::warn(Observation& o) const {
-  const auto found = by_earthquake_.find(earthquake_of(o));
-  if (found == by_earthquake_.end()) return;
+void warn_of_disagreement(const ByEarthquake& sources, Observation& o) {
+  const auto found = sources.find(earthquake_of(o));
+  if (found == sources.end()) return;
   const auto [least, most] =
       std::minmax_element(found->second.begin(), found->second.end(),
-                          [](const Source& a, const Source& b) { return a.stress_pa < b.stress_pa; });
+                          [](const SourceStress& a, const SourceStress& b) { return a.stress_pa < b.stress_pa; });
   if (!(most->stress_pa > most_disagreement * least->stress_pa)) return;
   o.warnings.push_back("sources of " + found->first + " disagree: stress from " + digits(least->stress_pa / 1e6, 3) +
                        " MPa (" + least->place + ") to " + digits(most->stress_pa / 1e6, 3) + " MPa (" + most->place +
                        ")");
 }
 
+}  // namespace
+
 void warn_of_other_sources(std::vector<Entry>& entries, const medium::Defaults& defaults) {
-  Sources sources;
+  ByEarthquake sources;
   for (const Entry& entry : entries)
-    if (!entry.error) sources.add(entry.observation, defaults);
+    if (!entry.error) add_source(sources, entry.observation, defaults);
   for (Entry& entry : entries)
-    if (!entry.error) sources.warn(entry.observation);
+    if (!entry.error) warn_of_disagreement(sources, entry.observation);
 }
 
 }  // namespace slipfront::finite_fault

@@ -1,6 +1,7 @@
 #include "run/catalogue.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -28,32 +29,24 @@ void add_once(std::vector<std::string>& all, const std::vector<std::string>& mor
 }
 
 /// Why --strict refuses a text: its first bad row, or a column that looks like a quantity. Nothing if it does not.
-std::optional<Complaint> why_refused(const EventText& t, const CatalogueScenario& scenario,
-                                     const medium::Defaults& defaults) {
-  std::optional<Complaint> first;
+std::optional<Complaint> why_refused(const std::string& file, const std::vector<Entry>& entries,
+                                     const catalogue::TableNotes& notes, const medium::Defaults& defaults) {
   EvaluationOptions closed_forms;
   closed_forms.sampling.samples = 0;
-  const catalogue::TableNotes notes = catalogue::read_events(
-      t.text, t.name,
-      [&](Entry&& entry) {
-        if (first) return;
-        const bool is_read = !entry.error;
-        first = entry.error;
-        if (const std::string error = is_read ? evaluate(std::move(entry), defaults, closed_forms).error : "";
-            !error.empty())
-          first = Complaint{.problem = error};
-      },
-      scenario.table);
-  if (first) {
-    first->problem += " (--strict refuses the file)";
-  } else if (!notes.ignored_quantities.empty()) {
-    first =
-        Complaint{.file = t.name,
-                  .key = notes.ignored_quantities.front(),
-                  .problem = "a column that looks like a quantity and is not understood (--strict refuses the file)",
-                  .allowed = "columns that --columns map.toml names, or \"ignore\" there"};
+  for (const Entry& entry : entries) {
+    std::optional<Complaint> error = entry.error;
+    if (!error)
+      if (const std::string text = evaluate(Entry(entry), defaults, closed_forms).error; !text.empty())
+        error = Complaint{.problem = text};
+    if (!error) continue;
+    error->problem += " (--strict refuses the file)";
+    return error;
   }
-  return first;
+  if (notes.ignored_quantities.empty()) return std::nullopt;
+  return Complaint{.file = file,
+                   .key = notes.ignored_quantities.front(),
+                   .problem = "a column that looks like a quantity and is not understood (--strict refuses the file)",
+                   .allowed = "columns that --columns map.toml names, or \"ignore\" there"};
 }
 
 /// An entry that has only an error.
@@ -65,26 +58,34 @@ Entry bad_entry(const std::string& file, Complaint&& error) {
   return entry;
 }
 
-/// Reads the entries of all texts. A text that could not be read gives one entry, with the reason.
-CatalogueColumns read_all(const CatalogueScenario& scenario, const medium::Defaults& defaults,
-                          const catalogue::Sink& sink) {
+struct Entries {
+  std::vector<Entry> all;  ///< with warnings if sources of one earthquake disagree
   CatalogueColumns columns;
+};
+
+/// Reads the entries of all texts. A text that could not be read gives one entry, with the reason.
+Entries read_all(const CatalogueScenario& scenario, const medium::Defaults& defaults) {
+  Entries read;
   for (const EventText& t : scenario.texts) {
     if (!t.error.empty()) {
-      columns.unreadable = true;
-      sink(bad_entry(t.name, Complaint{.problem = t.error}));
+      read.columns.unreadable = true;
+      read.all.push_back(bad_entry(t.name, Complaint{.problem = t.error}));
       continue;
     }
-    if (auto refused = scenario.strict ? why_refused(t, scenario, defaults) : std::nullopt) {
-      sink(bad_entry(t.name, std::move(*refused)));
+    std::vector<Entry> entries;
+    catalogue::TableNotes notes = catalogue::read_events(
+        t.text, t.name, [&](Entry&& entry) { entries.push_back(std::move(entry)); }, scenario.table);
+    if (auto refused = scenario.strict ? why_refused(t.name, entries, notes, defaults) : std::nullopt) {
+      read.all.push_back(bad_entry(t.name, std::move(*refused)));
       continue;
     }
-    catalogue::TableNotes notes = catalogue::read_events(t.text, t.name, sink, scenario.table);
-    add_once(columns.ignored, notes.ignored);
-    add_once(columns.ignored_quantities, notes.ignored_quantities);
-    if (!notes.ignored.empty() || !notes.notes.empty()) columns.files.push_back({t.name, std::move(notes)});
+    std::move(entries.begin(), entries.end(), std::back_inserter(read.all));
+    add_once(read.columns.ignored, notes.ignored);
+    add_once(read.columns.ignored_quantities, notes.ignored_quantities);
+    if (!notes.ignored.empty() || !notes.notes.empty()) read.columns.files.push_back({t.name, std::move(notes)});
   }
-  return columns;
+  finite_fault::warn_of_other_sources(read.all, defaults);
+  return read;
 }
 
 /// The settings on which the results depend. The number of threads is not one of them.
@@ -185,10 +186,11 @@ CataloguePlan plan_catalogue(const CatalogueScenario& scenario, int threads, boo
                                   .command_line = scenario.command_line,
                                   .settings = settings_of(scenario),
                                   .columns = {scenario.evaluation.pulse, scenario.evaluation.sampling.draws}}};
-  plan.columns = read_all(scenario, plan.defaults, [&](Entry&& entry) { plan.entries.push_back(std::move(entry)); });
+  Entries read = read_all(scenario, plan.defaults);
+  plan.entries = std::move(read.all);
+  plan.columns = std::move(read.columns);
   plan.metadata.ignored_columns = plan.columns.ignored;
   plan.metadata.ignored_quantities = plan.columns.ignored_quantities;
-  finite_fault::warn_of_other_sources(plan.entries, plan.defaults);
   results::require_memory(plan.evaluation, plan.entries.size(), threads, with_file);
   plan.disk = results::disk_needed(plan.evaluation, plan.entries.size());
   return plan;
@@ -215,32 +217,19 @@ CatalogueResult catalogue(CataloguePlan&& plan, const CatalogueOptions& options)
 
 CatalogueColumns stream_catalogue(const CatalogueScenario& scenario, int threads,
                                   const std::function<void(std::vector<EventResult>&&)>& take) {
-  constexpr std::size_t most_waiting = 4096;
+  constexpr std::size_t at_once = 4096;
   const medium::Defaults defaults = medium::defaults_of(scenario.medium);
-  // We read the texts twice, because a warning that sources of one earthquake disagree needs all of them.
-  finite_fault::Sources sources;
-  std::size_t count = 0;
-  read_all(scenario, defaults, [&](Entry&& entry) {
-    ++count;
-    if (!entry.error) sources.add(entry.observation, defaults);
-  });
-  results::require_memory(scenario.evaluation, std::min(count, most_waiting), threads);
-  std::vector<Entry> waiting;
-  const auto flush = [&] {
-    std::vector<EventResult> results(waiting.size());
+  Entries read = read_all(scenario, defaults);
+  results::require_memory(scenario.evaluation, std::min(read.all.size(), at_once), threads);
+  for (std::size_t first = 0; first < read.all.size(); first += at_once) {
+    std::vector<EventResult> results(std::min(at_once, read.all.size() - first));
     for_each_parallel(
-        waiting.size(), threads,
-        [&](std::size_t i) { results[i] = evaluate(std::move(waiting[i]), defaults, scenario.evaluation); }, 1);
-    waiting.clear();
+        results.size(), threads,
+        [&](std::size_t i) { results[i] = evaluate(std::move(read.all[first + i]), defaults, scenario.evaluation); },
+        1);
     take(std::move(results));
-  };
-  CatalogueColumns columns = read_all(scenario, defaults, [&](Entry&& entry) {
-    if (!entry.error) sources.warn(entry.observation);
-    waiting.push_back(std::move(entry));
-    if (waiting.size() == most_waiting) flush();
-  });
-  flush();
-  return columns;
+  }
+  return std::move(read.columns);
 }
 
 }  // namespace slipfront::run

@@ -82,8 +82,8 @@ struct CatalogueResult {
 /// of another catalogue, FileError.
 CatalogueResult catalogue(CataloguePlan&& plan, const CatalogueOptions& options);
 
-/// Evaluates the events in order, some at a time, and passes them to `take`, so that a catalogue of a million rows need
-/// not fit into memory. \throws as plan_catalogue.
+/// Evaluates the events in order, some at a time, and passes them to `take`, so that not all results are in memory at
+/// once. \throws as plan_catalogue.
 CatalogueColumns stream_catalogue(const CatalogueScenario& scenario, int threads,
                                   const std::function<void(std::vector<results::EventResult>&&)>& take);
 

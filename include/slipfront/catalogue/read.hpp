@@ -15,7 +15,7 @@ namespace slipfront::catalogue {
 /// \throws InputError naming line, key and value.
 Observation read_toml(std::string_view text, const std::string& file);
 
-/// Takes the entries of a file one by one, in the file's order: a catalogue of a million rows is never held whole.
+/// Takes the entries of a file one by one, in the file's order.
 using Sink = std::function<void(Entry&&)>;
 
 /// How a table is to be read.
