@@ -15,7 +15,7 @@
 #include "multiply_adds.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/chain/run.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace {
 
@@ -158,7 +158,7 @@ void chain_rate_and_state(benchmark::State& state) {
       {"chain.scale=300", "friction.law=rate-and-state", "friction.strength=0.05", "friction.direct_effect=0.01",
        "friction.evolution_effect=0.015", "friction.reference_velocity=0.05", "friction.characteristic_slip=0.05"},
       {});
-  const chain::ScaledProblem problem = setup::chain_problem(scenario);
+  const chain::ScaledProblem problem = scenario::chain_problem(scenario);
   output::Schedule schedule;
   schedule.times = {0, scenario.end};
   schedule.x_edges = {problem.left, problem.right};

@@ -8,7 +8,7 @@
 #include "pulse/solver.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -104,7 +104,7 @@ void pulse_laws(benchmark::State& state) {
   std::vector<std::string> settings{"pulse.cells=400"};
   for (const std::string& setting : law.friction) settings.push_back("friction." + setting);
   const scenario::Scenario scenario = scenario::read_scenario(step_of_stress, "step", settings, {});
-  const pulse::Problem problem = setup::pulse_problem(scenario);
+  const pulse::Problem problem = scenario::pulse_problem(scenario);
   double slip = 0;
   long steps = 0;
   for (auto _ : state) {

@@ -22,7 +22,7 @@
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 using namespace slipfront;
 
@@ -179,15 +179,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   attempt([&] {
     const scenario::Scenario s = scenario::read_scenario(text, "fuzz.toml", {}, table);
     attempt([&] {
-      const pulse::Problem problem = setup::pulse_problem(s);
-      pulse::Run run(problem, setup::pulse_schedule(s, problem));
+      const pulse::Problem problem = scenario::pulse_problem(s);
+      pulse::Run run(problem, scenario::pulse_schedule(s, problem));
       ++pulses;
       go(run);
     });
     attempt([&] {
-      const chain::ScaledProblem stretched = setup::chain_problem(s);
+      const chain::ScaledProblem stretched = scenario::chain_problem(s);
       if (!((stretched.right - stretched.left) * stretched.scale / stretched.spacing < 4000)) return;
-      chain::Run run(stretched, setup::pulse_schedule(s, setup::stated_problem(s)), chain::Execution{});
+      chain::Run run(stretched, scenario::pulse_schedule(s, scenario::stated_problem(s)), chain::Execution{});
       ++chains;
       go(run);
     });

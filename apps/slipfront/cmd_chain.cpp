@@ -11,7 +11,7 @@
 namespace {
 
 using namespace slipfront;
-using namespace slipfront::setup;
+using namespace slipfront::scenario;
 
 void describe(const scenario::Scenario& s, const run::ChainPlan& plan, const chain::Problem& p) {
   if (p.implicit) {

@@ -9,22 +9,21 @@
 #include "long_run.hpp"
 #include "record/files/unfinished.hpp"
 #include "run/run.hpp"
-#include "setup/estimate.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "scenario/estimate.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace {
 
 using namespace slipfront;
-using namespace slipfront::setup;
 
 struct CompareArguments : ScenarioArguments {
   std::vector<double> scales;
 };
 
-void describe(const scenario::Scenario& s, const Comparison& c, const std::string& output) {
-  const Estimate need = estimate_of(s, c);
+void describe(const scenario::Scenario& s, const run::Comparison& c, const std::string& output) {
+  const scenario::Estimate need = scenario::estimate_of(s, c.chains);
   record::require_disk_space(record::Output(output, "").finished(), need.disk);
-  begin_levels(c);
+  run::begin_levels(c);
   std::string text = fmt::format("{}: OK. The comparison would run {}pulse (consistent, paper)",
                                  s.title.empty() ? s.file : s.title, c.exact ? "the closed form, " : "");
   for (const auto& chain : c.chains)
@@ -35,16 +34,16 @@ void describe(const scenario::Scenario& s, const Comparison& c, const std::strin
 
 int run_compare(const CompareArguments& a) {
   const scenario::Scenario s = read_scenario_of(a);
-  const Comparison comparison = comparison_of(s, a.scales);
+  const run::Comparison comparison = run::comparison_of(s, a.scales);
   if (a.check) {
     describe(s, comparison, a.output);
     return exit_done;
   }
   const record::Output output(a.output, "");
-  record::require_disk_space(a.output, estimate_of(s, comparison).disk);
+  record::require_disk_space(a.output, scenario::estimate_of(s, comparison.chains).disk);
   if (output.wanted()) interrupted_means("; the finished levels are in " + output.unfinished(), output.unfinished());
   const WatchInterrupts watch;
-  std::vector<Level> levels;
+  std::vector<run::Level> levels;
   std::optional<Progress> progress;
   const bool reached = run::compare(
       s, comparison, a.scales, output, a.common.threads, levels, [&] { progress.reset(); },

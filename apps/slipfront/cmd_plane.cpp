@@ -8,21 +8,21 @@
 #include "run/fault_plane.hpp"
 #include "run/plane.hpp"
 #include "slipfront/plane/direct.hpp"
-#include "slipfront/setup/plane.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace {
 
 using namespace slipfront;
 
 /// The lines that a run would follow, in words. Refuses what a run refuses at its start.
-std::string solver_in_words(const scenario::Scenario& s, setup::Lines lines, int threads, const Ranks* ranks) {
-  if (lines == setup::Lines::direct) {
-    const plane::DirectOptions options{.scale = setup::scale_of_lines(s), .threads = threads};
-    setup::plane_solver(s, lines, threads, ranks);
+std::string solver_in_words(const scenario::Scenario& s, scenario::Lines lines, int threads, const Ranks* ranks) {
+  if (lines == scenario::Lines::direct) {
+    const plane::DirectOptions options{.scale = scenario::scale_of_lines(s), .threads = threads};
+    scenario::plane_solver(s, lines, threads, ranks);
     return fmt::format("every dislocation line at scale {}, which needs about {:.2g} GB of memory,", options.scale,
                        plane::memory_of_direct(s.plane->problem, options) / 1e9);
   }
-  setup::plane_solver(s, lines, threads);
+  scenario::plane_solver(s, lines, threads);
   if (s.plane->on_grid) return fmt::format("the mean slip in {} cells along x", s.plane->cells);
   return fmt::format("{} x {} cells of dislocation lines", s.plane->loops, s.plane->angles);
 }
@@ -47,7 +47,7 @@ void print_plane(const scenario::Scenario& s, const run::PlaneResult& result, co
 }
 
 /// Errors of a run that processes share, and of one that a finite-fault model gives, are not estimated.
-run::PlaneNumbers errors_of(const scenario::Scenario& s, const run::PlaneResult& result, setup::Lines lines,
+run::PlaneNumbers errors_of(const scenario::Scenario& s, const run::PlaneResult& result, scenario::Lines lines,
                             bool estimated, int threads) {
   if (!estimated) return run::unknown_errors(result.numbers);
   return run::plane_errors(s, result.numbers, {}, lines, threads);
@@ -56,9 +56,9 @@ run::PlaneNumbers errors_of(const scenario::Scenario& s, const run::PlaneResult&
 bool is_model(const ScenarioArguments& a) { return a.scenario.ends_with(".fsp"); }
 
 /// Runs a scenario. If it was made from a finite-fault model, it compares the results with the model.
-int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, setup::Lines lines,
+int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, scenario::Lines lines,
                  const run::FaultOnPlane* model, Clock::time_point begun) {
-  const Ranks* const ranks = lines == setup::Lines::direct && the_ranks->size() > 1 ? the_ranks : nullptr;
+  const Ranks* const ranks = lines == scenario::Lines::direct && the_ranks->size() > 1 ? the_ranks : nullptr;
   if (!ranks && the_ranks->rank() > 0) return exit_done;  // the averages are those of one process
   run::PlanePlan plan;
   std::optional<record::Checkpoint> saved;
@@ -82,7 +82,7 @@ int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, setup:
   return exit_done;
 }
 
-int run_plane(const ScenarioArguments& a, setup::Lines lines) {
+int run_plane(const ScenarioArguments& a, scenario::Lines lines) {
   const auto begun = Clock::now();
   scenario::Scenario s;
   std::optional<run::FaultOnPlane> model;
@@ -98,7 +98,7 @@ int run_plane(const ScenarioArguments& a, setup::Lines lines) {
   the_ranks->require_same("SCENARIO", s.text);
   if (!model) return run_scenario(a, s, lines, nullptr, begun);
   if (!model->fault.note.empty() && !a.common.quiet) complain("warning: " + model->fault.note);
-  return run_scenario(a, s, setup::Lines::direct, &*model, begun);
+  return run_scenario(a, s, scenario::Lines::direct, &*model, begun);
 }
 
 }  // namespace
@@ -116,5 +116,5 @@ Runner add_plane(CommandLine& program) {
   command.flag(
       "--direct", *direct,
       "Follow every dislocation line, as a finite-fault model always does; chain.scale sets how many there are");
-  return [a, direct] { return run_plane(*a, *direct ? setup::Lines::direct : setup::Lines::averaged); };
+  return [a, direct] { return run_plane(*a, *direct ? scenario::Lines::direct : scenario::Lines::averaged); };
 }

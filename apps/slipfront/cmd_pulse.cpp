@@ -12,12 +12,12 @@
 #include "run/errors.hpp"
 #include "run/run.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace {
 
 using namespace slipfront;
-using namespace slipfront::setup;
+using namespace slipfront::scenario;
 
 double two_digits(double value) {
   const double last = std::pow(10, std::floor(std::log10(value)) - 1);

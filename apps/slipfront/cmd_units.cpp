@@ -11,7 +11,7 @@
 #include "run/run.hpp"
 #include "slipfront/scenario/keys.hpp"
 #include "slipfront/scenario/quantities.hpp"
-#include "slipfront/setup/numbers.hpp"
+#include "slipfront/scenario/problem.hpp"
 #include "terminal_table.hpp"
 
 namespace {
@@ -26,7 +26,7 @@ struct NamedNumber {
   std::optional<double> value;
 };
 
-std::vector<NamedNumber> named(const setup::Numbers& n) {
+std::vector<NamedNumber> named(const scenario::Numbers& n) {
   using scenario::ModelUnit;
   return {
       {"strength_over_direct_effect", "f_0 / a", "", "", n.strength_over_direct_effect},
@@ -51,14 +51,14 @@ std::string cost_of(const scenario::Scenario& s) {
   try {
     const run::ChainPlan plan = run::plan_chain(s);
     const chain::Problem p = chain::problem_of(plan.chain);
-    return fmt::format("a chain of {} sites, {}", p.grid.sites, setup::in_words(plan.need));
+    return fmt::format("a chain of {} sites, {}", p.grid.sites, scenario::in_words(plan.need));
   } catch (const InputError& error) {
     return std::string("no chain: ") + error.complaint().problem;
   }
 }
 
 void print(const scenario::Scenario& s, const std::vector<scenario::Quantity>& quantities,
-           const setup::Numbers& numbers) {
+           const scenario::Numbers& numbers) {
   const std::vector<TableColumn> columns = {{34, true},    {14, true, 2},  {14, false, 2},
                                             {24, true, 2}, {14, false, 2}, {6, true, 1}};
   TerminalTable table(columns);
@@ -85,7 +85,7 @@ void print(const scenario::Scenario& s, const std::vector<scenario::Quantity>& q
 }
 
 Json json_of_units(const scenario::Scenario& s, const std::vector<scenario::Quantity>& quantities,
-                   const setup::Numbers& numbers) {
+                   const scenario::Numbers& numbers) {
   Json all;
   for (const scenario::Scale& scale : scenario::scales_of(s.medium))
     all["units"].push_back(
@@ -106,7 +106,7 @@ Json json_of_units(const scenario::Scenario& s, const std::vector<scenario::Quan
 int run_units(const ScenarioArguments& a) {
   const scenario::Scenario s = read_scenario_of(a);
   const auto quantities = scenario::quantities_of(s.text, s.file, {});
-  const setup::Numbers numbers = setup::numbers_of(s);
+  const scenario::Numbers numbers = scenario::numbers_of(s);
   if (a.common.json)
     put(text_of(json_of_units(s, quantities, numbers)) + "\n");
   else

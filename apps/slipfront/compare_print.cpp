@@ -12,7 +12,6 @@
 #include "terminal_table.hpp"
 
 using namespace slipfront;
-using namespace slipfront::setup;
 
 namespace {
 
@@ -24,18 +23,18 @@ medium::UnitInSi unit_in(const CompareUnits& units, const Description& about) {
   return units ? units->of(about.dimensional_unit) : medium::UnitInSi{};
 }
 
-double last(const Level& level, const Scalar& number, const CompareUnits& units) {
+double last(const run::Level& level, const Scalar& number, const CompareUnits& units) {
   return number.get(level.snapshots.back()) * unit_in(units, number.about).value;
 }
 
 /// The numbers that describe a level.
-std::vector<std::pair<Description, std::optional<double>>> settings_of(const Level& level) {
+std::vector<std::pair<Description, std::optional<double>>> settings_of(const run::Level& level) {
   return {{output::slip_window, level.window},
           {output::velocity_window, level.smooth_window},
           {output::wall_time, level.wall_seconds}};
 }
 
-Json json_level(const Level& level, const Level* reference, const CompareUnits& units) {
+Json json_level(const run::Level& level, const run::Level* reference, const CompareUnits& units) {
   Json j = {{"level", level.name},
             {"closure", level.closure.empty() ? Json() : Json(level.closure)},
             {"scale", json_of(level.scale)}};
@@ -44,14 +43,14 @@ Json json_level(const Level& level, const Level* reference, const CompareUnits& 
     if (value) *value *= unit_in(units, about).value;
     j[std::string(about.name)] = json_of(value);
   }
-  for (const Scalar& q : compared_numbers())
+  for (const Scalar& q : run::compared_numbers())
     j["difference"][std::string(q.about.name)] =
         reference ? Json(last(level, q, units) - last(*reference, q, units)) : Json();
   return j;
 }
 
 /// The names of the units in SI of all numbers of a level.
-Json names_of_units(const CompareUnits& units, const Level& level) {
+Json names_of_units(const CompareUnits& units, const run::Level& level) {
   Json names;
   const auto add = [&](const Description& about) {
     if (!about.dimensional_unit.empty()) names[std::string(about.name)] = unit_in(units, about).name;
@@ -62,7 +61,7 @@ Json names_of_units(const CompareUnits& units, const Level& level) {
   return names;
 }
 
-void print_json(const scenario::Scenario& s, const std::vector<Level>& levels) {
+void print_json(const scenario::Scenario& s, const std::vector<run::Level>& levels) {
   const std::optional<double> C = s.friction.linear_coefficient();
   const CompareUnits& units = s.results_in;
   Json j = {{"time", s.end * unit_in(units, output::end_time).value},
@@ -70,9 +69,9 @@ void print_json(const scenario::Scenario& s, const std::vector<Level>& levels) {
             {"damping_number", C ? Json(*C * s.end) : Json()},
             {"reference", "pulse-consistent"},
             {"levels", Json::array()}};
-  for (const Level& level : levels) j["levels"].push_back(json_level(level, reference_level(levels), units));
-  for (const Scalar& q : compared_numbers()) {
-    const Trend t = trend_of(levels, q);
+  for (const run::Level& level : levels) j["levels"].push_back(json_level(level, run::reference_level(levels), units));
+  for (const Scalar& q : run::compared_numbers()) {
+    const run::Trend t = run::trend_of(levels, q);
     const double unit = unit_in(units, q.about).value;
     j["trend"][std::string(q.about.name)] = {
         {"exponent", t.exponent}, {"extrapolated", t.extrapolated * unit}, {"difference", t.difference * unit}};
@@ -81,7 +80,7 @@ void print_json(const scenario::Scenario& s, const std::vector<Level>& levels) {
     j["unit_system"] = "SI";
     j["units"] = names_of_units(units, levels.front());
   }
-  j["notes"] = notes_on(s, levels);
+  j["notes"] = run::notes_on(s, levels);
   put(text_of(j) + "\n");
 }
 
@@ -118,62 +117,62 @@ using Cells = std::vector<std::string>;
 template <class Cell>
 void add_row(TerminalTable& table, const std::string& name, Cell&& cell) {
   Cells cells = {name};
-  for (const Scalar& q : compared_numbers()) cells.push_back(cell(q));
+  for (const Scalar& q : run::compared_numbers()) cells.push_back(cell(q));
   table.add(std::move(cells));
 }
 
-void add_levels(TerminalTable& table, const std::vector<Level>& levels, const CompareUnits& units) {
+void add_levels(TerminalTable& table, const std::vector<run::Level>& levels, const CompareUnits& units) {
   Cells head = {"at the end"};
-  for (const Scalar& q : compared_numbers()) head.emplace_back(q.heading);
+  for (const Scalar& q : run::compared_numbers()) head.emplace_back(q.heading);
   head.emplace_back("seconds");
   table.add(std::move(head));
   add_row(table, "", [&](const Scalar& q) {
     return units ? unit_in(units, q.about).name : std::string(q.about.dimensional_unit);
   });
-  for (const Level& level : levels) {
+  for (const run::Level& level : levels) {
     Cells cells = {level.name};
-    for (const Scalar& q : compared_numbers()) cells.push_back(cell(last(level, q, units)));
+    for (const Scalar& q : run::compared_numbers()) cells.push_back(cell(last(level, q, units)));
     cells.push_back(fmt::format("{:.2g}", level.wall_seconds));
     table.add(std::move(cells));
   }
 }
 
-void add_differences(TerminalTable& table, const std::vector<Level>& levels, const Level& reference,
+void add_differences(TerminalTable& table, const std::vector<run::Level>& levels, const run::Level& reference,
                      const CompareUnits& units) {
   const auto theory = [&](const Scalar& q) { return last(reference, q, units); };
   const auto unit = [&](const Scalar& q) { return unit_in(units, q.about).value; };
   table.add_title("");
   table.add_title("difference from pulse-consistent");
-  for (const Level& level : levels)
+  for (const run::Level& level : levels)
     if (&level != &reference)
       add_row(table, level.name,
               [&](const Scalar& q) { return difference_cell(last(level, q, units) - theory(q), theory(q), q, units); });
   table.add_title("");
   table.add_title("trend of the chain with scale");
-  add_row(table, "falls as s^-p, p =", [&](const Scalar& q) { return cell(trend_of(levels, q).exponent); });
+  add_row(table, "falls as s^-p, p =", [&](const Scalar& q) { return cell(run::trend_of(levels, q).exponent); });
   add_row(table, "at infinite scale",
-          [&](const Scalar& q) { return cell(trend_of(levels, q).extrapolated * unit(q)); });
+          [&](const Scalar& q) { return cell(run::trend_of(levels, q).extrapolated * unit(q)); });
   add_row(table, "less pulse", [&](const Scalar& q) {
-    return difference_cell(trend_of(levels, q).difference * unit(q), theory(q), q, units);
+    return difference_cell(run::trend_of(levels, q).difference * unit(q), theory(q), q, units);
   });
 }
 
-void print_table(const scenario::Scenario& s, const std::vector<Level>& levels) {
+void print_table(const scenario::Scenario& s, const std::vector<run::Level>& levels) {
   put(fitted(fmt::format("{}{}t = {}, {}", s.title, s.title.empty() ? "" : ": ", in_results(s, s.end, "b / (c A)"),
                          friction_in_words(s.friction, s.end))));
   put("\n");
   TerminalTable table(compare_columns);
   add_levels(table, levels, s.results_in);
-  const Level* reference = reference_level(levels);
+  const run::Level* reference = run::reference_level(levels);
   if (reference) add_differences(table, levels, *reference, s.results_in);
   put(table.text());
   if (!reference) return;
   put("\n");
-  for (const std::string& note : notes_on(s, levels)) put(fitted(note, 2));
+  for (const std::string& note : run::notes_on(s, levels)) put(fitted(note, 2));
 }
 
 }  // namespace
 
-void print_comparison(const scenario::Scenario& s, const std::vector<Level>& levels, bool json) {
+void print_comparison(const scenario::Scenario& s, const std::vector<run::Level>& levels, bool json) {
   json ? print_json(s, levels) : print_table(s, levels);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "slipfront/setup/compare.hpp"
+#include "run/compare.hpp"
 
 /// As a table or as one JSON object, on stdout.
-void print_comparison(const slipfront::scenario::Scenario& scenario, const std::vector<slipfront::setup::Level>& levels,
+void print_comparison(const slipfront::scenario::Scenario& scenario, const std::vector<slipfront::run::Level>& levels,
                       bool json);

@@ -1,4 +1,4 @@
-#include "slipfront/setup/compare.hpp"
+#include "run/compare.hpp"
 
 #include <pybind11/stl.h>
 
@@ -10,15 +10,15 @@
 #include "record/pulses/comparison_file.hpp"
 #include "results.hpp"
 #include "run/run.hpp"
-#include "setup/estimate.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "scenario/estimate.hpp"
+#include "slipfront/scenario/problem.hpp"
 #include "watch.hpp"
 
 namespace {
 
 using namespace slipfront;
 using namespace pybind11::literals;
-using setup::Level;
+using run::Level;
 
 /// The value of the unit of a number in the units of the results.
 double in_results(const scenario::Scenario& s, const Description& about) {
@@ -27,8 +27,8 @@ double in_results(const scenario::Scenario& s, const Description& about) {
 
 py::list trends(const std::vector<Level>& levels, const scenario::Scenario& s) {
   py::list rows;
-  for (const output::Scalar& q : setup::compared_numbers()) {
-    const setup::Trend t = setup::trend_of(levels, q);
+  for (const output::Scalar& q : run::compared_numbers()) {
+    const run::Trend t = run::trend_of(levels, q);
     const double unit = in_results(s, q.about);
     rows.append(py::make_tuple(std::string(q.about.name), t.exponent, t.extrapolated * unit, t.difference * unit));
   }
@@ -62,15 +62,15 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   const scenario::Scenario s = scenario_of(a);
   Watch watch(a.progress, s.end);
   std::vector<Level> levels;
-  setup::Comparison comparison;
+  run::Comparison comparison;
   record::PulseMetadata metadata;
   bool reached = false;
   {
     const py::gil_scoped_release others_may_run;
-    comparison = setup::comparison_of(s, scales);
+    comparison = run::comparison_of(s, scales);
     metadata = run::metadata_of(s, "compare", comparison.schedule.x_edges, scales);
     const record::Output output(a.output, "");
-    record::require_disk_space(a.output, setup::estimate_of(s, comparison).disk);
+    record::require_disk_space(a.output, scenario::estimate_of(s, comparison.chains).disk);
     reached = run::compare(
         s, comparison, scales, output, threads, levels, [] {},
         [&](const std::string& level, double time, long steps) { return watch(time, steps, level); });
@@ -84,7 +84,7 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   result["level_numbers"] = numbers_of_levels(levels);
   result["scale_about"] = described(output::scale_factor);
   result["trends"] = trends(levels, s);
-  result["notes"] = setup::notes_on(s, levels);
+  result["notes"] = run::notes_on(s, levels);
   const double C = s.friction.linear_coefficient().value_or(none);
   result["summary"] = py::dict("time"_a = s.end * in_results(s, output::end_time), "friction_coefficient"_a = C,
                                "damping_number"_a = C * s.end);
@@ -93,11 +93,11 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
 
 py::dict check_compare(const py::dict& arguments, const std::vector<double>& scales) {
   const scenario::Scenario s = scenario_of(request_of(arguments));
-  const setup::Comparison c = setup::comparison_of(s, scales);
-  setup::begin_levels(c);
+  const run::Comparison c = run::comparison_of(s, scales);
+  run::begin_levels(c);
   std::vector<double> chains;
   for (const auto& chain : c.chains) chains.push_back(chain.scale);
-  const setup::Estimate need = setup::estimate_of(s, c);
+  const scenario::Estimate need = scenario::estimate_of(s, c.chains);
   return py::dict("title"_a = s.title, "levels"_a = c.levels(), "closed_form"_a = c.exact.has_value(),
                   "scales"_a = chains, "left"_a = c.problem.left, "right"_a = c.problem.right, "end"_a = s.end,
                   "memory_bytes"_a = need.memory_with_file(), "disk_bytes"_a = need.disk);

@@ -36,7 +36,7 @@ py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int
   const RunRequest a = request_of(arguments);
   const Requested all = requested(a);
   const scenario::Scenario& s = all.scenario;
-  const setup::Lines lines = direct || is_model(a) ? setup::Lines::direct : setup::Lines::averaged;
+  const scenario::Lines lines = direct || is_model(a) ? scenario::Lines::direct : scenario::Lines::averaged;
   Watch watch(a.progress, s.end);
   run::PlanePlan plan;
   run::PlaneResult result;
@@ -71,9 +71,9 @@ py::dict check_plane(const py::dict& arguments, bool direct) {
   using namespace pybind11::literals;
   const RunRequest a = request_of(arguments);
   const scenario::Scenario s = requested(a).scenario;
-  const setup::Lines lines = direct || is_model(a) ? setup::Lines::direct : setup::Lines::averaged;
+  const scenario::Lines lines = direct || is_model(a) ? scenario::Lines::direct : scenario::Lines::averaged;
   const run::PlanePlan plan = run::plan_plane(s, lines);
-  setup::plane_solver(s, lines, 1);
+  scenario::plane_solver(s, lines, 1);
   return py::dict("title"_a = s.title, "loops"_a = s.plane->loops, "angles"_a = s.plane->angles,
                   "left"_a = plan.grid.left, "right"_a = plan.grid.right, "bottom"_a = plan.grid.bottom,
                   "top"_a = plan.grid.top, "cells_x"_a = plan.grid.nx, "cells_y"_a = plan.grid.ny, "end"_a = s.end,

@@ -7,7 +7,7 @@
 #include "results.hpp"
 #include "run/errors.hpp"
 #include "run/run.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 #include "watch.hpp"
 
 namespace {

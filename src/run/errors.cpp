@@ -11,7 +11,7 @@
 #include "pulse/checks/slip_record.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace slipfront::run {
 namespace {
@@ -40,11 +40,11 @@ std::vector<Row> summary_with(int cells, const scenario::Scenario& scenario, con
   other.pulse.cells = cells;
   other.output.times.clear();
   other.output.every.reset();
-  pulse::Problem problem = setup::pulse_problem(other);
+  pulse::Problem problem = scenario::pulse_problem(other);
   problem.tolerance = std::fmin(coarser * problem.tolerance, 0.1);
   problem.explicit_tolerance *= coarser;
   problem.longest_step *= std::sqrt(coarser);
-  pulse::Run run(problem, setup::pulse_schedule(other, problem));
+  pulse::Run run(problem, scenario::pulse_schedule(other, problem));
   try {
     if (!run.go(interrupted)) return {};
   } catch (const NumericsError&) {

@@ -13,7 +13,7 @@
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/plane/direct.hpp"
 #include "slipfront/plane/source_parameters.hpp"
-#include "slipfront/setup/plane.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace slipfront::run {
 namespace {
@@ -157,10 +157,10 @@ scenario::Scenario scenario_of_fault(const FaultOnPlane& model, const std::strin
                       .allowed = "--set medium.contact_ratio=..."});
   const scenario::Scenario without =
       scenario::read_scenario(text_of(model, file, *contact_ratio, 1), file, overrides, read_table);
-  setup::plane_solver(without, setup::Lines::direct, 1);  // refuses what needs too much memory
-  const plane::Schedule grid = setup::plane_schedule(without, setup::Lines::direct);
+  scenario::plane_solver(without, scenario::Lines::direct, 1);  // refuses what needs too much memory
+  const plane::Schedule grid = scenario::plane_schedule(without, scenario::Lines::direct);
   const double unbalanced = plane::largest_unbalanced_force(
-      without.plane->problem, {.scale = setup::scale_of_lines(without), .spacing = *without.chain.spacing}, grid.nx,
+      without.plane->problem, {.scale = scenario::scale_of_lines(without), .spacing = *without.chain.spacing}, grid.nx,
       grid.ny);
   return scenario::read_scenario(text_of(model, file, *contact_ratio, stronger * unbalanced), file, overrides,
                                  read_table);

@@ -13,7 +13,7 @@ namespace slipfront::run {
 namespace {
 
 std::unique_ptr<plane::Run> begun(const scenario::Scenario& s, const PlanePlan& plan, const Options& options) {
-  std::unique_ptr<plane::Solver> solver = setup::plane_solver(s, plan.lines, options.threads, options.ranks);
+  std::unique_ptr<plane::Solver> solver = scenario::plane_solver(s, plan.lines, options.threads, options.ranks);
   if (!options.checkpoint) return std::make_unique<plane::Run>(std::move(solver), plan.schedule);
   const record::Checkpoint& saved = *options.checkpoint;
   return std::make_unique<plane::Run>(std::move(solver), plan.schedule, saved.solver_state, saved.fields);
@@ -38,16 +38,16 @@ PlaneNumbers numbers_of(const plane::Run& run, const scenario::Scenario& s) {
 
 /// The numbers with a fraction of the cells or of the scale; empty if the run fails or is interrupted.
 std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
-                                             const std::function<bool()>& interrupted, setup::Lines lines,
+                                             const std::function<bool()>& interrupted, scenario::Lines lines,
                                              int threads) {
-  if (lines == setup::Lines::direct) s.chain.scale = setup::scale_of_lines(s) / divisor;
+  if (lines == scenario::Lines::direct) s.chain.scale = scenario::scale_of_lines(s) / divisor;
   s.plane->loops = std::max(4, s.plane->loops / divisor);
   s.plane->angles = std::max(8, s.plane->angles / divisor);
-  if (lines == setup::Lines::averaged) s.plane->cells = std::max(8, s.plane->cells / divisor);
+  if (lines == scenario::Lines::averaged) s.plane->cells = std::max(8, s.plane->cells / divisor);
   try {
-    plane::Schedule schedule = setup::plane_schedule(s, lines);
+    plane::Schedule schedule = scenario::plane_schedule(s, lines);
     schedule.times = {s.end};
-    plane::Run run(setup::plane_solver(s, lines, threads), std::move(schedule));
+    plane::Run run(scenario::plane_solver(s, lines, threads), std::move(schedule));
     return run.go(interrupted) ? std::optional(numbers_of(run, s)) : std::nullopt;
   } catch (const NumericsError&) {
     return std::nullopt;
@@ -58,9 +58,9 @@ std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
 
 }  // namespace
 
-PlanePlan plan_plane(const scenario::Scenario& s, setup::Lines lines) {
-  PlanePlan plan{.lines = lines, .schedule = setup::plane_schedule(s, lines), .grid = {}, .disk = 0};
-  plan.disk = setup::plane_file_size(plan.schedule);
+PlanePlan plan_plane(const scenario::Scenario& s, scenario::Lines lines) {
+  PlanePlan plan{.lines = lines, .schedule = scenario::plane_schedule(s, lines), .grid = {}, .disk = 0};
+  plan.disk = scenario::plane_file_size(plan.schedule);
   const plane::Problem& p = s.plane->problem;
   const double ratio = s.plane->wave_speed_ratio;
   plan.grid = {.left = p.left,
@@ -74,13 +74,13 @@ PlanePlan plan_plane(const scenario::Scenario& s, setup::Lines lines) {
 
 PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const Options& options) {
   PlaneResult result{.run = begun(s, plan, options),
-                     .metadata = metadata_of(s, plan.lines == setup::Lines::direct ? "plane --direct" : "plane", {}),
+                     .metadata = metadata_of(s, plan.lines == scenario::Lines::direct ? "plane --direct" : "plane", {}),
                      .wall = 0};
   const auto write = [&](const std::string& path, const record::PulseMetadata& metadata, const std::string& state) {
     record::write_plane(path, metadata, plan.grid, *result.run, state);
   };
   if (!carry_out(result, options, plan.disk, write)) return result;
-  if (const double scale = setup::scale_of_lines(s); plan.lines == setup::Lines::direct && !s.chain.scale && scale > 1)
+  if (const double scale = scenario::scale_of_lines(s); plan.lines == scenario::Lines::direct && !s.chain.scale && scale > 1)
     add_warnings({"chain.scale is not given. At scale " + digits(scale) +
                   " the largest initial slip has 20 dislocation lines; a larger one brings results closer to those of "
                   "many lines"},
@@ -96,11 +96,11 @@ PlaneNumbers unknown_errors(PlaneNumbers numbers) {
 }
 
 PlaneNumbers plane_errors(const scenario::Scenario& s, const PlaneNumbers& numbers,
-                          const std::function<bool()>& interrupted, setup::Lines lines, int threads) {
-  if (lines == setup::Lines::direct && s.chain.scale) {
+                          const std::function<bool()>& interrupted, scenario::Lines lines, int threads) {
+  if (lines == scenario::Lines::direct && s.chain.scale) {
     scenario::Scenario by_default = s;
     by_default.chain.scale.reset();
-    if (*s.chain.scale < setup::scale_of_lines(by_default)) return unknown_errors(numbers);
+    if (*s.chain.scale < scenario::scale_of_lines(by_default)) return unknown_errors(numbers);
   }
   const std::optional<PlaneNumbers> half_of = with_fewer_cells(s, 2, interrupted, lines, threads),
                                     quarter_of = with_fewer_cells(s, 4, interrupted, lines, threads);

@@ -10,20 +10,20 @@
 #include "record/planes/plane_file.hpp"
 #include "run/run.hpp"
 #include "slipfront/plane/run.hpp"
-#include "slipfront/setup/plane.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace slipfront::run {
 
 /// A run on a plane that has been checked.
 struct PlanePlan {
-  setup::Lines lines = setup::Lines::averaged;
+  scenario::Lines lines = scenario::Lines::averaged;
   plane::Schedule schedule;
   record::PlaneGrid grid;
   double disk = 0;  ///< approximate number of bytes of the file
 };
 
 /// \throws InputError.
-PlanePlan plan_plane(const scenario::Scenario& scenario, setup::Lines lines);
+PlanePlan plan_plane(const scenario::Scenario& scenario, scenario::Lines lines);
 
 /// As for a pulse. \throws InputError also if time.end decides when the series has rows.
 record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const PlanePlan& plan);
@@ -57,7 +57,7 @@ PlaneNumbers unknown_errors(PlaneNumbers numbers);
 /// returned true, and for a direct run with fewer than 20 lines, whose convergence is not regular. The peak slip
 /// velocity has no error.
 PlaneNumbers plane_errors(const scenario::Scenario& scenario, const PlaneNumbers& numbers,
-                          const std::function<bool()>& interrupted, setup::Lines lines = setup::Lines::averaged,
+                          const std::function<bool()>& interrupted, scenario::Lines lines = scenario::Lines::averaged,
                           int threads = 1);
 
 }  // namespace slipfront::run

@@ -5,9 +5,9 @@
 #include "record/files/unfinished.hpp"
 #include "record/pulses/comparison_file.hpp"
 #include "run/carry_out.hpp"
-#include "setup/solver_errors.hpp"
-#include "slipfront/scenario/files.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "scenario/solver_errors.hpp"
+#include "slipfront/scenario/problem.hpp"
+#include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::run {
 namespace {
@@ -62,35 +62,35 @@ record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std:
 }
 
 PulsePlan plan_pulse(const scenario::Scenario& scenario) {
-  return setup::with_keys(setup::SolverKind::pulse, scenario.file, [&] {
-    PulsePlan plan{.problem = setup::pulse_problem(scenario), .schedule = {}, .need = {}, .file = scenario.file};
-    plan.schedule = setup::pulse_schedule(scenario, plan.problem);
-    plan.need = setup::estimate_of(scenario, plan.problem);
+  return scenario::with_keys(scenario::SolverKind::pulse, scenario.file, [&] {
+    PulsePlan plan{.problem = scenario::pulse_problem(scenario), .schedule = {}, .need = {}, .file = scenario.file};
+    plan.schedule = scenario::pulse_schedule(scenario, plan.problem);
+    plan.need = scenario::estimate_of(scenario, plan.problem);
     return plan;
   });
 }
 
 ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine) {
-  return setup::with_keys(setup::SolverKind::chain, scenario.file, [&] {
-    ChainPlan plan{.chain = setup::chain_problem(scenario),
-                   .schedule = setup::pulse_schedule(scenario, setup::stated_problem(scenario)),
+  return scenario::with_keys(scenario::SolverKind::chain, scenario.file, [&] {
+    ChainPlan plan{.chain = scenario::chain_problem(scenario),
+                   .schedule = scenario::pulse_schedule(scenario, scenario::stated_problem(scenario)),
                    .need = {},
                    .file = scenario.file};
-    setup::require_memory(scenario, plan.chain, share_of_machine);
-    plan.need = setup::estimate_of(scenario, plan.chain);
+    scenario::require_memory(scenario, plan.chain, share_of_machine);
+    plan.need = scenario::estimate_of(scenario, plan.chain);
     return plan;
   });
 }
 
 std::unique_ptr<pulse::Run> begin(const PulsePlan& plan, const Options& options) {
-  return setup::with_keys(setup::SolverKind::pulse, plan.file,
-                          [&] { return begun<pulse::Run>(options, plan.problem, plan.schedule); });
+  return scenario::with_keys(scenario::SolverKind::pulse, plan.file,
+                             [&] { return begun<pulse::Run>(options, plan.problem, plan.schedule); });
 }
 
 std::unique_ptr<chain::Run> begin(const ChainPlan& plan, const Options& options) {
   const chain::Execution execution{.threads = options.threads, .ranks = options.ranks};
-  return setup::with_keys(setup::SolverKind::chain, plan.file,
-                          [&] { return begun<chain::Run>(options, plan.chain, plan.schedule, execution); });
+  return scenario::with_keys(scenario::SolverKind::chain, plan.file,
+                             [&] { return begun<chain::Run>(options, plan.chain, plan.schedule, execution); });
 }
 
 Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& plan, const Options& options) {
@@ -134,15 +134,15 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
   return result;
 }
 
-bool compare(const scenario::Scenario& scenario, const setup::Comparison& comparison, const std::vector<double>& scales,
-             const record::Output& output, int threads, std::vector<setup::Level>& levels,
+bool compare(const scenario::Scenario& scenario, const Comparison& comparison, const std::vector<double>& scales,
+             const record::Output& output, int threads, std::vector<Level>& levels,
              const std::function<void()>& next_level,
              const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
   const auto write = [&](bool finished) {
     if (!output.wanted()) return;
     std::vector<record::ComparedLevel> compared;
     compared.reserve(levels.size());
-    for (const setup::Level& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
+    for (const Level& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
     record::write_comparison(finished ? output.finished() : output.unfinished(),
                              metadata_of(scenario, "compare", comparison.schedule.x_edges, scales),
                              comparison.schedule.times, compared, finished);
@@ -152,7 +152,7 @@ bool compare(const scenario::Scenario& scenario, const setup::Comparison& compar
     next_level();
     write(false);
   };
-  const bool reached = setup::run_levels(comparison, threads, levels, next, after_step);
+  const bool reached = run_levels(comparison, threads, levels, next, after_step);
   write(reached);
   return reached;
 }

@@ -13,12 +13,12 @@
 #include "foundation/ranks.hpp"
 #include "record/files/unfinished.hpp"
 #include "record/pulses/pulse_file.hpp"
+#include "run/compare.hpp"
 #include "run/summary.hpp"
-#include "setup/estimate.hpp"
+#include "scenario/estimate.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "slipfront/setup/compare.hpp"
 
 namespace slipfront::run {
 
@@ -48,13 +48,13 @@ record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std:
 struct PulsePlan {
   pulse::Problem problem;
   output::Schedule schedule;
-  setup::Estimate need;
+  scenario::Estimate need;
   std::string file;  ///< the file of the scenario, which errors name
 };
 struct ChainPlan {
   chain::ScaledProblem chain;
   output::Schedule schedule;
-  setup::Estimate need;
+  scenario::Estimate need;
   std::string file;  ///< the file of the scenario, which errors name
 };
 
@@ -100,9 +100,9 @@ Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& pl
 Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& plan, const Options& options);
 
 /// Runs a comparison, and writes each level when it is finished. `levels` gets the finished levels. `scales` are those
-/// that the user stated. Returns whether all levels are finished. \throws as setup::run_levels, FileError.
-bool compare(const scenario::Scenario& scenario, const setup::Comparison& comparison, const std::vector<double>& scales,
-             const record::Output& output, int threads, std::vector<setup::Level>& levels,
+/// that the user stated. Returns whether all levels are finished. \throws as run_levels, FileError.
+bool compare(const scenario::Scenario& scenario, const Comparison& comparison, const std::vector<double>& scales,
+             const record::Output& output, int threads, std::vector<Level>& levels,
              const std::function<void()>& next_level,
              const std::function<bool(const std::string& level, double time, long steps)>& after_step);
 

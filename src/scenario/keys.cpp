@@ -15,13 +15,12 @@ namespace {
 
 using friction::Definition;
 using friction::Parameter;
-using enum KeyType;
 
-constexpr Limits positive{.least = 0, .without_least = true};
-constexpr Limits position{.least = -farthest, .most = farthest};
+constexpr Limits above_zero{.least = 0, .without_least = true};
+constexpr Limits position_limits{.least = -farthest, .most = farthest};
 constexpr Limits stress_limits{.least = 0, .most = largest_stress};
-constexpr Limits fraction{.least = 0, .most = 1, .without_least = true, .without_most = true};
-constexpr Limits tolerance{.least = 1e-12, .most = 0.1};
+constexpr Limits fraction_limits{.least = 0, .most = 1, .without_least = true, .without_most = true};
+constexpr Limits tolerance_limits{.least = 1e-12, .most = 0.1};
 
 /// A key whose value is a number.
 Key number_key(std::string_view table, std::string_view name, ModelUnit unit, Limits limits, std::string otherwise,
@@ -40,7 +39,7 @@ Key word_key(std::string_view table, std::string_view name, std::vector<std::str
              std::string meaning) {
   return {.table = table,
           .name = name,
-          .type = word,
+          .type = KeyType::word,
           .meaning = std::move(meaning),
           .otherwise = std::move(otherwise),
           .words = std::move(words)};
@@ -53,7 +52,7 @@ Key other_key(std::string_view table, std::string_view name, KeyType type, std::
 
 Key formula_key(std::string_view table, std::string_view name, ModelUnit unit, std::string otherwise,
                 std::string meaning) {
-  Key key = other_key(table, name, formula, std::move(otherwise), std::move(meaning));
+  Key key = other_key(table, name, KeyType::formula, std::move(otherwise), std::move(meaning));
   key.scale = unit;
   return key;
 }
@@ -79,9 +78,9 @@ std::vector<Key> initial_keys() {
       formula_key(table, "formula", ModelUnit::stress, "required by the profile formula",
                   "stress as a formula of x, in mu A / pi; on a plane slip as a formula of x and y, in b / (2 pi)"),
       units_key(table, "formula or the columns of file"),
-      other_key(table, "file", text, "required by the profiles table and radial",
+      other_key(table, "file", KeyType::text, "required by the profiles table and radial",
                 "CSV or NetCDF file with x and stress, or with r and slip; relative to the scenario file"),
-      other_key(table, "hold", truth, "false", "a static load holds at rest the stress that is not in equilibrium"),
+      other_key(table, "hold", KeyType::truth, "false", "a static load holds at rest the stress that is not in equilibrium"),
   };
 }
 
@@ -89,7 +88,7 @@ Key key_of(const Parameter& p) {
   const bool has_words = !p.words.empty();
   return {.table = "friction",
           .name = p.name,
-          .type = has_words ? word : number,
+          .type = has_words ? KeyType::word : KeyType::number,
           .meaning = std::string(p.meaning),
           .unit = has_words ? "" : p.unit,
           .otherwise = has_words ? std::string(p.words.at(static_cast<std::size_t>(p.value))) : shortest(p.value),
@@ -129,10 +128,10 @@ std::vector<Key> friction_keys() {
   std::vector<Key> all = {word_key(table, "law", names, "none", "law of friction")};
   const std::vector<Key> parameters = parameter_keys();
   all.insert(all.end(), parameters.begin(), parameters.end());
-  all.push_back(with_laws(other_key(table, "formula", formula, "required by the law formula",
+  all.push_back(with_laws(other_key(table, "formula", KeyType::formula, "required by the law formula",
                                     "force as a formula of the slip velocity w, which is multiplied by coefficient"),
                           friction::CurveSource::formula));
-  all.push_back(with_laws(other_key(table, "file", text, "required by the law table",
+  all.push_back(with_laws(other_key(table, "file", KeyType::text, "required by the law table",
                                     "CSV or NetCDF file with w and f; relative to the scenario file"),
                           friction::CurveSource::table));
   all.push_back(
@@ -141,7 +140,7 @@ std::vector<Key> friction_keys() {
                "Pa; f is a pure number if coefficient is a stress"));
   all.push_back(word_key(table, "closure", {"consistent", "paper"}, "consistent",
                          "average of friction: the exact one, or the printed one, which understates friction"));
-  all.push_back(other_key(table, "normal_stress", quantity, "forces are in the unit of F",
+  all.push_back(other_key(table, "normal_stress", KeyType::quantity, "forces are in the unit of F",
                           "with it, numbers for forces are friction coefficients"));
   return all;
 }
@@ -151,15 +150,15 @@ std::vector<Key> load_keys() {
       formula_key("forcing", "formula", ModelUnit::force, "0",
                   "force F(x, t) that pushes slip forward, in mu A^2 / (pi (1 - nu))"),
       units_key("forcing", "x, t and formula"),
-      number_key("loading", "stiffness", ModelUnit::stiffness, positive, "required by [loading]",
+      number_key("loading", "stiffness", ModelUnit::stiffness, above_zero, "required by [loading]",
                  "force of the springs over their stretch; stress over stretch at a pulled end"),
-      other_key("loading", "area", quantity, "none", "area that the springs pull, for a stiffness in N/m"),
+      other_key("loading", "area", KeyType::quantity, "none", "area that the springs pull, for a stiffness in N/m"),
       number_key("loading", "velocity", ModelUnit::slip_velocity, {}, "required by [loading]",
                  "velocity of the far ends of the springs"),
       word_key("loading", "where", {"everywhere", "left", "right"}, "everywhere", "sites that the springs pull"),
-      number_key("loading", "event_velocity", ModelUnit::slip_velocity, positive, "10 times velocity",
+      number_key("loading", "event_velocity", ModelUnit::slip_velocity, above_zero, "10 times velocity",
                  "slip velocity above which a part of the chain is in an event"),
-      other_key("interface", "contact", formula, "1",
+      other_key("interface", "contact", KeyType::formula, "1",
                 "contact ratio a(x) > 0 relative to A; 0 only for a chain without a substrate"),
       units_key("interface", "x"),
   };
@@ -168,9 +167,9 @@ std::vector<Key> load_keys() {
 std::vector<Key> domain_and_time_keys() {
   const std::string found = "chosen for a step or tanh";
   return {
-      number_key("domain", "left", ModelUnit::position, position, found, "x of the left end"),
-      number_key("domain", "right", ModelUnit::position, position, found, "x of the right end"),
-      number_key("time", "end", ModelUnit::time, positive, "2 pi", "time at which the run ends"),
+      number_key("domain", "left", ModelUnit::position, position_limits, found, "x of the left end"),
+      number_key("domain", "right", ModelUnit::position, position_limits, found, "x of the right end"),
+      number_key("time", "end", ModelUnit::time, above_zero, "2 pi", "time at which the run ends"),
   };
 }
 
@@ -178,28 +177,28 @@ std::vector<Key> plane_keys() {
   const std::string_view table = "plane";
   const auto count = [&](std::string_view name, Limits limits, std::string otherwise, std::string meaning) {
     Key key = number_key(table, name, ModelUnit::none, limits, std::move(otherwise), std::move(meaning));
-    key.type = whole_number;
+    key.type = KeyType::whole_number;
     return key;
   };
   return {
-      number_key(table, "left", ModelUnit::position, position, "required by [plane]", "x of the left edge"),
-      number_key(table, "right", ModelUnit::position, position, "required by [plane]", "x of the right edge"),
-      number_key(table, "bottom", ModelUnit::position, position, "required by [plane]", "y of the lower edge"),
-      number_key(table, "top", ModelUnit::position, position, "required by [plane]", "y of the upper edge"),
+      number_key(table, "left", ModelUnit::position, position_limits, "required by [plane]", "x of the left edge"),
+      number_key(table, "right", ModelUnit::position, position_limits, "required by [plane]", "x of the right edge"),
+      number_key(table, "bottom", ModelUnit::position, position_limits, "required by [plane]", "y of the lower edge"),
+      number_key(table, "top", ModelUnit::position, position_limits, "required by [plane]", "y of the upper edge"),
       word_key(table, "solver", {"loops", "grid"}, "loops",
                "averages follow star-shaped lines, or the mean slip on a grid of cells"),
       count("cells", {.least = 4, .most = 10'000}, "200", "cells of the results and of the grid along x"),
       count("loops", {.least = 4, .most = 10'000}, "120", "cells of the averaged solver across the lines"),
       count("angles", {.least = 8, .most = 10'000}, "128", "directions of the averaged solver around the origin"),
-      other_key(table, "fixed", formula, "nowhere", "the interface is held where this formula of x and y is not 0"),
+      other_key(table, "fixed", KeyType::formula, "nowhere", "the interface is held where this formula of x and y is not 0"),
       units_key(table, "x and y in fixed"),
-      number_key(table, "wave_speed_ratio", ModelUnit::none, positive, "1",
+      number_key(table, "wave_speed_ratio", ModelUnit::none, above_zero, "1",
                  "speed of waves along y over that along x, the direction of slip"),
       word_key(table, "edges", {"free", "fixed", "absorbing"}, "free",
                "edges of the plane with --direct: no stress, no slip, or waves leave"),
-      number_key("nucleation", "x", ModelUnit::position, position, "0", "x of the middle of the patch"),
-      number_key("nucleation", "y", ModelUnit::position, position, "0", "y of the middle of the patch"),
-      number_key("nucleation", "radius", ModelUnit::position, positive, "required by [nucleation]",
+      number_key("nucleation", "x", ModelUnit::position, position_limits, "0", "x of the middle of the patch"),
+      number_key("nucleation", "y", ModelUnit::position, position_limits, "0", "y of the middle of the patch"),
+      number_key("nucleation", "radius", ModelUnit::position, above_zero, "required by [nucleation]",
                  "radius of the patch in which nothing holds the initial state any more"),
       number_key("nucleation", "time", ModelUnit::time, {.least = 0}, "0", "time from which that is so"),
   };
@@ -210,15 +209,15 @@ std::vector<Key> pulse_keys() {
   const std::vector<std::string_view> ends = {"continued", "fixed", "free"};
   Key cells = number_key(table, "cells", ModelUnit::none, {.least = 4, .most = 10'000'000}, "400",
                          "number of cells over the stressed stretch");
-  cells.type = whole_number;
+  cells.type = KeyType::whole_number;
   return {
       cells,
-      number_key(table, "tolerance", ModelUnit::none, tolerance, "1e-06", "error of an implicit step"),
-      number_key(table, "threshold", ModelUnit::none, fraction, "0.001",
+      number_key(table, "tolerance", ModelUnit::none, tolerance_limits, "1e-06", "error of an implicit step"),
+      number_key(table, "threshold", ModelUnit::none, fraction_limits, "0.001",
                  "slip velocity at which an observer sees a front, over the peak slip velocity"),
       word_key(table, "left", ends, "continued", "condition at the left end"),
       word_key(table, "right", ends, "continued", "condition at the right end"),
-      other_key(table, "periodic", truth, "false", "a ring, which is stressed at both ends of the domain"),
+      other_key(table, "periodic", KeyType::truth, "false", "a ring, which is stressed at both ends of the domain"),
       word_key(table, "trains", {"one", "many"}, "one",
                "trains at one position: one, with shocks, or as many as overtake each other (no friction or load)"),
   };
@@ -228,18 +227,18 @@ std::vector<Key> chain_keys() {
   const std::string_view table = "chain";
   const std::vector<std::string_view> ends = {"free", "fixed", "absorbing"};
   return {
-      number_key(table, "scale", ModelUnit::none, positive, "1",
+      number_key(table, "scale", ModelUnit::none, above_zero, "1",
                  "factor by which x and t are stretched and friction is divided"),
-      number_key(table, "spacing", ModelUnit::position, positive, "0.4 of the width of a dislocation",
+      number_key(table, "spacing", ModelUnit::position, above_zero, "0.4 of the width of a dislocation",
                  "spacing of the sites on the stretched chain; A on a lattice"),
       word_key(table, "model", {"sine-gordon", "lattice"}, "sine-gordon", "Eq. 3, or the lattice of Eq. 1"),
       word_key(table, "left", ends, "fixed", "condition at the left end"),
       word_key(table, "right", ends, "fixed", "condition at the right end"),
-      other_key(table, "periodic", truth, "false", "a ring of the length of the domain"),
-      number_key(table, "window", ModelUnit::position, positive, "one spacing of the train",
+      other_key(table, "periodic", KeyType::truth, "false", "a ring of the length of the domain"),
+      number_key(table, "window", ModelUnit::position, above_zero, "one spacing of the train",
                  "length of the average at x = 0"),
       word_key(table, "steps", {"explicit", "implicit"}, "explicit", "time steps; always implicit with [loading]"),
-      number_key(table, "tolerance", ModelUnit::none, tolerance, "5e-05", "error of an implicit step"),
+      number_key(table, "tolerance", ModelUnit::none, tolerance_limits, "5e-05", "error of an implicit step"),
   };
 }
 
@@ -248,10 +247,10 @@ std::vector<Key> medium_keys() {
   for (const medium::Constant& constant : medium::constants()) {
     const bool poisson = constant.name == "poisson_ratio";
     const Limits ratios{.least = -1, .most = 0.5, .without_least = true, .without_most = true};
-    Key key = number_key("medium", constant.name, ModelUnit::none, poisson ? ratios : positive, "",
+    Key key = number_key("medium", constant.name, ModelUnit::none, poisson ? ratios : above_zero, "",
                          std::string(constant.meaning));
     if (constant.dimension != medium::Dimension::ratio) key.unit = {};
-    key.type = quantity;
+    key.type = KeyType::quantity;
     all.push_back(key);
   }
   return all;
@@ -260,16 +259,16 @@ std::vector<Key> medium_keys() {
 std::vector<Key> output_keys() {
   Key times = number_key("output", "times", ModelUnit::time, {.least = 0}, "none",
                          "increasing times at which results are written; t = 0 and the end always are");
-  times.type = numbers;
+  times.type = KeyType::numbers;
   Key variables = word_key("output", "variables", {"k", "Sigma", "U", "W", "H", "slip", "stress_drop", "trains"}, "all",
                            "variables in the output file");
   variables.type = KeyType::words;
   Key per_event = number_key("output", "per_event", ModelUnit::none, {.least = 0, .most = 10'000}, "0",
                              "further results of each slip event, at least as many if it has that many steps");
-  per_event.type = whole_number;
+  per_event.type = KeyType::whole_number;
   Key fronts = number_key("output", "fronts", ModelUnit::none, {.least = 3, .most = 10000}, "none",
                           "positions at which a loaded chain records the arrival of each slip event");
-  fronts.type = whole_number;
+  fronts.type = KeyType::whole_number;
   Key probes = other_key("output", "probes", KeyType::points, "none",
                          "points of a plane at which slip and slip velocity are printed");
   probes.scale = ModelUnit::position;
@@ -277,7 +276,7 @@ std::vector<Key> output_keys() {
       other_key("output", "lines", KeyType::truth, "false",
                 "whether the file of a plane has the rupture front or, with --direct, all dislocation lines");
   return {times,
-          number_key("output", "every", ModelUnit::time, positive, "none",
+          number_key("output", "every", ModelUnit::time, above_zero, "none",
                      "interval between the times of results, in place of times"),
           per_event,
           variables,
@@ -325,8 +324,8 @@ std::string Key::allowed() const {
   std::string text;
   for (const std::string_view choice : words) text += (text.empty() ? "" : ", ") + std::string(choice);
   if (!text.empty()) return text;
-  if (type == truth) return "true, false";
-  const bool numeric = type == number || type == whole_number || type == numbers || type == quantity;
+  if (type == KeyType::truth) return "true, false";
+  const bool numeric = type == KeyType::number || type == KeyType::whole_number || type == KeyType::numbers || type == KeyType::quantity;
   if (!numeric || !(std::isfinite(limits.least) || std::isfinite(limits.most))) return "";
   return limits.text().substr(std::string_view("a finite number ").size());
 }
@@ -334,7 +333,7 @@ std::string Key::allowed() const {
 const std::vector<Key>& keys() {
   static const std::vector<Key> all = [] {
     std::vector<Key> some = {
-        {.table = "", .name = "title", .type = text, .meaning = "title of the run", .otherwise = ""}};
+        {.table = "", .name = "title", .type = KeyType::text, .meaning = "title of the run", .otherwise = ""}};
     for (const auto& part : {initial_keys(), friction_keys(), load_keys(), domain_and_time_keys(), plane_keys(),
                              pulse_keys(), chain_keys(), medium_keys(), output_keys()})
       some.insert(some.end(), part.begin(), part.end());

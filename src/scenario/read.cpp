@@ -1,16 +1,163 @@
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "scenario/plane/plane.hpp"
-#include "scenario/profile/initial.hpp"
-#include "scenario/settings.hpp"
-#include "scenario/text/document.hpp"
-#include "scenario/text/section.hpp"
-#include "scenario/validate.hpp"
+#include "foundation/text/digits.hpp"
+#include "scenario/document.hpp"
+#include "scenario/readers.hpp"
+#include "scenario/section.hpp"
+#include "slipfront/medium/constants.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::scenario {
+
+namespace {
+
+constexpr double most_outputs = 1e6;
+
+std::vector<double> read_times(const Section& section, double end) {
+  std::vector<double> times;
+  const Value* const array = section.array("times", "an array of times, such as [1, 2.5]");
+  if (!array) return times;
+  const Limits limits{.least = 0, .most = end};  // [time] end
+  for (const Value& item : array->items) {
+    const double time = section.item_in("times", item, ModelUnit::time, limits);
+    if (!times.empty() && !(time > times.back()))
+      throw section.refuse("times", item, "not after the time before it", "times strictly increasing");
+    times.push_back(time);
+  }
+  return times;
+}
+
+std::vector<std::string> read_variables(const Section& section) {
+  const std::vector<std::string_view>& known = section.key("variables").words;
+  std::vector<std::string> variables;
+  const Value* const array = section.array("variables", "an array of names, such as [\"Sigma\", \"slip\"]");
+  if (!array) return variables;
+  for (const Value& item : array->items) {
+    const auto found = std::find(known.begin(), known.end(), item.text);
+    if (item.kind != Value::Kind::text || found == known.end())
+      throw section.refuse("variables", item, "unknown variable", nearest_or_all(item.text, known));
+    if (std::find(variables.begin(), variables.end(), item.text) != variables.end())
+      throw section.refuse("variables", item, "given twice", "each name once");
+    variables.push_back(item.text);
+  }
+  if (variables.empty()) throw section.refuse("variables", "an empty list", "leave it out to write all");
+  return variables;
+}
+
+void read_domain(const Document& document, Domain& domain) {
+  const Section section(document, "domain");
+  domain.left = section.number("left");
+  domain.right = section.number("right");
+  if (domain.left && domain.right && !(*domain.left < *domain.right))
+    throw section.refuse(
+        "right", "not to the right of domain.left",
+        "> " + section.bound_as_written("right", *section.find("right"), ModelUnit::position, *domain.left));
+}
+
+void read_pulse(const Document& document, PulseOptions& pulse) {
+  const Section section(document, "pulse");
+  section.read("cells", pulse.cells);
+  section.read("tolerance", pulse.tolerance);
+  section.read("threshold", pulse.threshold);
+  section.read("left", pulse.left);
+  section.read("right", pulse.right);
+  section.read("periodic", pulse.periodic);
+  section.read("trains", pulse.many_trains);
+}
+
+void read_chain(const Document& document, ChainOptions& chain) {
+  const Section section(document, "chain");
+  section.read("scale", chain.scale);
+  section.read("spacing", chain.spacing);
+  section.read("model", chain.model);
+  section.read("left", chain.left);
+  section.read("right", chain.right);
+  section.read("periodic", chain.periodic);
+  section.read("window", chain.window);
+  section.read("steps", chain.implicit);
+  section.read("tolerance", chain.tolerance);
+  if (section.has("tolerance") && section.has("steps") && !chain.implicit)
+    throw section.refuse("tolerance", "is of implicit steps", "with chain.steps = \"implicit\" or [loading]");
+}
+
+Output read_output(const Document& document, double end) {
+  const Section section(document, "output");
+  Output output;
+  output.times = read_times(section, end);
+  output.every = section.number("every");
+  if (output.every && section.has("times"))
+    throw section.refuse("every", "output.times is given too", "one of the two");
+  if (output.every && end / *output.every > most_outputs)
+    throw section.refuse(
+        "every", "more than a million outputs",
+        ">= " + section.bound_as_written("every", *section.find("every"), ModelUnit::time, end / most_outputs));
+  section.read("per_event", output.per_event);
+  if (output.per_event > 0 && document.tables.count("loading") == 0)
+    throw section.refuse("per_event", "without [loading] there are no slip events", "with [loading]");
+  output.variables = read_variables(section);
+  section.read("fronts", output.fronts);
+  return output;
+}
+
+void read_loading(const Document& document, chain::Loading& loading) {
+  const Section section(document, "loading");
+  if (!section.has("velocity") && !section.has("where") && !section.has("event_velocity") &&
+      !section.has("stiffness") && !section.has("area"))
+    return;
+  const auto stiffness = stiffness_of(section);
+  if (!stiffness) throw section.refuse("stiffness", "missing", "> 0: the force of the springs over their stretch");
+  if (!section.has("velocity"))
+    throw section.refuse("velocity", "missing", "a finite number: of the springs' far ends");
+  loading.stiffness = *stiffness;
+  section.read("velocity", loading.velocity);
+  section.read("where", loading.where);
+  constexpr double times_loading = 10;
+  loading.event_velocity = times_loading * std::fabs(loading.velocity);
+  section.read("event_velocity", loading.event_velocity);
+}
+
+}  // namespace
+
+ModelUnit unit_of_stiffness(const Section& section) {
+  chain::Pulled where = chain::Pulled::everywhere;
+  section.read("where", where);
+  return where == chain::Pulled::everywhere ? ModelUnit::stiffness : ModelUnit::end_stiffness;
+}
+
+std::optional<double> stiffness_of(const Section& section) {
+  const ModelUnit unit = unit_of_stiffness(section);
+  const Value *const value = section.find("stiffness"), *const area = section.find("area");
+  if (!area) return section.number_in("stiffness", unit);
+  const double square_metres = section.quantity("area", *area, medium::Dimension::area);
+  if (!(square_metres > 0)) throw section.refuse("area", "not positive", "> 0");
+  if (!value || value->kind != Value::Kind::text)
+    throw section.refuse("area", "it needs a loading.stiffness in N/m", "leave it out, or stiffness = \"1e6 N/m\"");
+  const double spring = section.quantity("stiffness", *value, medium::Dimension::spring);
+  if (!(spring > 0)) throw section.refuse("stiffness", "not positive", "> 0");
+  return spring / square_metres / section.si("stiffness", unit);
+}
+
+void read_medium(const Document& document, medium::Constants& options) {
+  const Section section(document, "medium");
+  Errors errors;
+  for (const medium::Constant& constant : medium::constants()) {
+    const Value* const value = section.find(constant.name);
+    if (!value) continue;
+    errors.attempt([&] {
+      const double quantity = section.quantity(constant.name, *value, constant.dimension);
+      const Key& key = section.key(constant.name);
+      if (!key.limits.hold(quantity))
+        throw section.refuse(constant.name, key.limits.least < 0 ? "out of range" : "not positive", key.allowed());
+      options.*constant.member = quantity;
+    });
+  }
+  errors.throw_if_any();
+}
+
 namespace {
 
 std::string read_title(const Document& document) {
@@ -32,10 +179,6 @@ RawStress read_line(const Document& document, const TableReader& tables, Scenari
   const Value* const lines = output.find("lines");
   if (lines && lines->kind == Value::Kind::truth && lines->number != 0)
     throw output.refuse("lines", "are those of a plane", "with [plane]");
-  const auto profile = Section(document, "initial").text("profile");
-  if (profile == "radial" || profile == "grid")
-    throw Section(document, "initial")
-        .refuse("profile", "is of a plane", "step, tanh, formula, table, or with [plane]");
   return read_initial(document, tables, scenario.initial);
 }
 
@@ -64,7 +207,7 @@ RawStress read_tables(const Document& document, const TableReader& tables, Scena
     });
   attempt("friction", [&] { read_friction(document, tables, scenario); });
   attempt("domain", [&] { read_domain(document, scenario.domain); });
-  attempt("time", [&] { scenario.end = read_end(document, scenario.end); });
+  attempt("time", [&] { Section(document, "time").read("end", scenario.end); });
   attempt("pulse", [&] { read_pulse(document, scenario.pulse); });
   attempt("chain", [&] { read_chain(document, scenario.chain); });
   attempt("loading", [&] { read_loading(document, scenario.loading); });

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "law_values.hpp"
-#include "slipfront/setup/compare.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "run/compare.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace slipfront {
 namespace {
@@ -47,8 +47,8 @@ scenario::Scenario step_under(const Definition& law, std::size_t word, double fo
 }
 
 double slip_of_pulse(const scenario::Scenario& s) {
-  const pulse::Problem problem = setup::pulse_problem(s);
-  pulse::Run run(problem, setup::pulse_schedule(s, problem));
+  const pulse::Problem problem = scenario::pulse_problem(s);
+  pulse::Run run(problem, scenario::pulse_schedule(s, problem));
   run.go({});
   return run.snapshots().back().slip_at_origin;
 }
@@ -66,8 +66,8 @@ double force_that_halves_slip(const Definition& law, std::size_t word) {
   return low;
 }
 
-double slip_of(const std::vector<setup::Level>& levels, std::string_view name) {
-  for (const setup::Level& level : levels)
+double slip_of(const std::vector<run::Level>& levels, std::string_view name) {
+  for (const run::Level& level : levels)
     if (level.name == name) return level.snapshots.back().slip_at_origin;
   ADD_FAILURE() << "no level " << name;
   return 0;
@@ -78,9 +78,9 @@ TEST(Laws, SlipEquallyOnThePulseAndOnChainsOfTwoScales) {
     for (std::size_t word = 0; !law->parameters.empty() && word < friction::law_words(*law); ++word) {
       SCOPED_TRACE(std::string(law->name) + ", word " + std::to_string(word));
       const scenario::Scenario s = step_under(*law, word, force_that_halves_slip(*law, word));
-      std::vector<setup::Level> levels;
-      setup::run_levels(
-          setup::comparison_of(s, {small_scale, large_scale}), 1, levels, [] {},
+      std::vector<run::Level> levels;
+      run::run_levels(
+          run::comparison_of(s, {small_scale, large_scale}), 1, levels, [] {},
           [](const std::string&, double, long) { return false; });
       // The position of the last dislocation that passed adds up to half a dislocation to the slip of a chain.
       const double pulse = slip_of(levels, "pulse-consistent"), share_of_dislocation = 0.3 * 2 * std::numbers::pi;

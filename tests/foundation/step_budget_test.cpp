@@ -10,7 +10,7 @@
 #include "pulse/solver.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace {
 
@@ -98,8 +98,8 @@ end = 4.562e+34
 cells = 50
 )toml";
   const auto scenario = slipfront::scenario::read_scenario(text, "slow.toml", {}, {});
-  const pulse::Problem problem = slipfront::setup::pulse_problem(scenario);
-  pulse::Run run(problem, slipfront::setup::pulse_schedule(scenario, problem));
+  const pulse::Problem problem = slipfront::scenario::pulse_problem(scenario);
+  pulse::Run run(problem, slipfront::scenario::pulse_schedule(scenario, problem));
   EXPECT_LT(run.budget().expected(), 1000);
   EXPECT_EQ(end_of(run), "no error");
   EXPECT_LT(run.solver().cells().steps, 300);

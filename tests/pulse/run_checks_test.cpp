@@ -9,7 +9,7 @@
 #include "slipfront/friction/law.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace {
 
@@ -72,8 +72,8 @@ right = 3.612
 cells = )toml" + std::to_string(cells) +
                              "\n";
     const scenario::Scenario s = scenario::read_scenario(text, "still.toml", {}, {});
-    const Problem p = setup::pulse_problem(s);
-    pulse::Run run(p, setup::pulse_schedule(s, p));
+    const Problem p = scenario::pulse_problem(s);
+    pulse::Run run(p, scenario::pulse_schedule(s, p));
     EXPECT_TRUE(run.go());
     EXPECT_TRUE(run.warnings().empty());
   }
@@ -122,8 +122,8 @@ cells = 200
 )toml";
   for (const std::string& text : {dry, rate_and_state}) {
     const scenario::Scenario s = scenario::read_scenario(text, "held.toml", {}, {});
-    const Problem p = setup::pulse_problem(s);
-    pulse::Run run(p, setup::pulse_schedule(s, p));
+    const Problem p = scenario::pulse_problem(s);
+    pulse::Run run(p, scenario::pulse_schedule(s, p));
     EXPECT_TRUE(run.go());
     EXPECT_LT(std::fabs(run.snapshots().back().slip_at_origin), 1e-8);
   }

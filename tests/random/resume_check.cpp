@@ -15,7 +15,7 @@
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 using namespace slipfront;
 
@@ -51,8 +51,8 @@ bool continues(const pulse::Problem& problem, const output::Schedule& schedule, 
 bool resumes(const char* path) {
   const scenario::Scenario s = scenario::read_scenario(record::read_text(path), path, {}, record::read_table);
   if (s.loading.acts()) return true;  // only chains support loading
-  const pulse::Problem problem = setup::pulse_problem(s);
-  const output::Schedule schedule = setup::pulse_schedule(s, problem);
+  const pulse::Problem problem = scenario::pulse_problem(s);
+  const output::Schedule schedule = scenario::pulse_schedule(s, problem);
   bool finished = false;
   pulse::Run whole(problem, schedule);
   const std::string end = end_of(whole, {}, finished);

@@ -16,7 +16,7 @@
 #include "scenario.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace slipfront::explorer {
 namespace {
@@ -52,7 +52,7 @@ std::unique_ptr<chain::Chain> started(const chain::ScaledProblem& s) {
 SLIPFRONT_EXPORT const char* chain_begin(const char* toml, int dislocations, double window) {
   return answer([=] {
     const scenario::Scenario s = scenario_of(toml);
-    chain::ScaledProblem problem = setup::chain_problem(s);
+    chain::ScaledProblem problem = scenario::chain_problem(s);
     constexpr int samples = 2000;
     double number = 0;  // number of dislocations at scale 1
     for (int i = 0; i < samples; ++i)

@@ -17,8 +17,7 @@
 #include "slipfront/error.hpp"
 #include "slipfront/medium/si_units.hpp"
 #include "slipfront/output/slip_event.hpp"
-#include "slipfront/setup/numbers.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace slipfront::explorer {
 namespace {
@@ -53,7 +52,7 @@ struct Results {
 chain::ScaledProblem loaded_problem(const scenario::Scenario& s) {
   if (!s.loading.acts())
     throw InputError({.key = "loading.stiffness", .problem = "no spring pulls", .allowed = "a stiffness > 0"});
-  chain::ScaledProblem problem = setup::chain_problem(s);
+  chain::ScaledProblem problem = scenario::chain_problem(s);
   if (problem.scale != 1) throw InputError({.key = "chain.scale", .problem = "not 1", .allowed = "1 on this page"});
   const std::size_t sites = chain::problem_of(problem).grid.sites;
   if (sites > most_loaded_sites)
@@ -130,7 +129,7 @@ SLIPFRONT_EXPORT const char* loading_begin(const char* toml, const char* changes
         .put("end", now.end * now.unit.time)
         .put("pulls_an_end", pulls_an_end(*now.chain))
         .put("velocity", loading.velocity * now.unit.velocity)
-        .put("stiffness_ratio", setup::numbers_of(s).stiffness_ratio)
+        .put("stiffness_ratio", scenario::numbers_of(s).stiffness_ratio)
         .put("warnings", s.warnings)
         .numbers("x", x)
         .numbers("fronts_x", fronts);

@@ -1,7 +1,7 @@
 /// \file
 /// The functions of panel "Fault plane": a rupture on a plane, by the averages or line by line.
 
-#include "slipfront/setup/plane.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -100,15 +100,15 @@ SLIPFRONT_EXPORT const char* plane_begin(const char* toml, const char* changes, 
       return all;
     };
     scenario::Scenario s = scenario::read_scenario(toml, "", lines_of(changes), table);
-    setup::require_plane(s);
+    scenario::require_plane(s);
     check_size(s, direct != 0);
     s.plane->cells = cells;
-    const setup::Lines which = direct != 0 ? setup::Lines::direct : setup::Lines::averaged;
-    plane::Schedule schedule = setup::plane_schedule(s, which);
+    const scenario::Lines which = direct != 0 ? scenario::Lines::direct : scenario::Lines::averaged;
+    plane::Schedule schedule = scenario::plane_schedule(s, which);
     schedule.lines = true;
     schedule.times.clear();
     for (int i = 0; i <= frames; ++i) schedule.times.push_back(s.end * i / frames);
-    auto solver = setup::plane_solver(s, which, 1);
+    auto solver = scenario::plane_solver(s, which, 1);
     const plane::Problem& p = solver->problem();
     const double ratio = schedule.wave_speed_ratio;
     const Object begun = Object()

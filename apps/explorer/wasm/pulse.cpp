@@ -15,7 +15,7 @@
 #include "slipfront/error.hpp"
 #include "slipfront/output/quantities.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace slipfront::explorer {
 namespace {
@@ -80,7 +80,7 @@ void put_numbers(Object& object, const pulse::Run& run) {
 SLIPFRONT_EXPORT const char* pulse_begin(int handle, const char* toml, int frames, double look, int closure) {
   return answer([=] {
     const scenario::Scenario s = scenario_of(toml);
-    pulse::Problem problem = setup::pulse_problem(s);
+    pulse::Problem problem = scenario::pulse_problem(s);
     if (closure > 0)
       problem.friction = problem.friction.with(closure == 1 ? friction::Closure::consistent : friction::Closure::paper);
     if (!problem.friction.defined_by(problem.friction.closure()))
@@ -88,7 +88,7 @@ SLIPFRONT_EXPORT const char* pulse_begin(int handle, const char* toml, int frame
                         .value = "paper",
                         .problem = "the paper's closure is not defined for laws with state variables",
                         .allowed = "consistent"});
-    output::Schedule schedule = setup::pulse_schedule(s, problem);
+    output::Schedule schedule = scenario::pulse_schedule(s, problem);
     if (look > 0) {
       schedule.times = {0, std::min(look, s.end)};
     } else if (frames > 1) {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "foundation/text/digits.hpp"
-#include "scenario/text/document.hpp"
+#include "scenario/document.hpp"
 #include "slipfront/medium/constants.hpp"
-#include "slipfront/setup/problem.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace slipfront::explorer {
 namespace {
@@ -75,7 +75,7 @@ SLIPFRONT_EXPORT const char* scenario(const char* toml) {
     for (const auto& [name, content] : document.tables)
       for (const auto& [key, value] : content.values)
         keys.push_back(Object().put("key", name + "." + key).put("value", in_words(value)));
-    const pulse::Problem problem = setup::stated_problem(s);
+    const pulse::Problem problem = scenario::stated_problem(s);
     std::vector<double> x, stress;
     constexpr int points = 400;
     for (int i = 0; i <= points; ++i) {

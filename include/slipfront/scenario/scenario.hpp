@@ -144,4 +144,7 @@ std::string differing_key(std::string_view one, std::string_view other);
 /// --set friction.coefficient=0.5". `scales` are those of the `compare` command.
 std::string command_line(const Scenario& scenario, std::string_view command, const std::vector<double>& scales = {});
 
+/// The paths of the files from which a run of this scenario reads: its own, and its tables.
+std::vector<std::string> files_of(const Scenario& scenario);
+
 }  // namespace slipfront::scenario

@@ -1,0 +1,103 @@
+#include "scenario/estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "foundation/machine.hpp"
+#include "foundation/text/digits.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::scenario {
+namespace {
+
+constexpr double double_size = sizeof(double);
+constexpr double observed_fields = 5;   // fields in output::Profile
+constexpr double written_fields = 8;    // fields in a file, at most
+constexpr double scalars = 16;          // scalars in a snapshot
+constexpr double solver_per_cell = 66;  // doubles for states, fluxes, the stages of a step and its Jacobian
+constexpr double state_per_cell = 12;   // doubles in the two saved states, including the edges of x
+constexpr double state_per_site = 2;    // doubles in the saved state of a chain: two time levels
+
+/// Estimates outputs, memory and disk for the observations of a run, which are the same for a pulse and a chain.
+Estimate observed(const Scenario& s) {
+  const double cells = s.pulse.cells;
+  double outputs = 2 + static_cast<double>(s.output.times.size());
+  if (s.output.every) outputs += std::ceil(s.end / *s.output.every) - 1;
+  const double variables =
+      s.output.variables.empty() ? written_fields : static_cast<double>(s.output.variables.size() + 1);
+  return {outputs, double_size * outputs * (observed_fields * cells + scalars),
+          double_size * (outputs * (cells * variables + scalars) + 2 * cells)};
+}
+
+double sites_of(const chain::ScaledProblem& c) { return c.scale * (c.right - c.left) / c.spacing + 1; }
+
+double memory_of(const chain::ScaledProblem& c) {
+  chain::Problem p;  // only the members on which memory depends
+  p.friction = c.friction;
+  p.forcing = c.forcing;
+  p.contact = c.contact;
+  p.grid.sites = static_cast<std::size_t>(std::clamp(sites_of(c), 1.0, 1e15));
+  return chain::memory_needed(p);
+}
+
+void require(const Scenario& s, const Estimate& need, const char* key, const std::string& what, const char* allowed) {
+  const double have = usable_memory();
+  if (need.memory_with_file() <= have) return;
+  const bool by_outputs = need.outputs > 1000;
+  throw InputError({.file = s.file,
+                    .key = by_outputs ? (s.output.every ? "output.every" : "output.times") : key,
+                    .problem = digits(need.outputs, 4) + " outputs of " + digits(s.pulse.cells, 4) + " cells" + what +
+                               " need " + digits(need.memory_with_file() / 1e9, 3) +
+                               " GB of memory, this process may have " + digits(have / 1e9, 3) + " GB",
+                    .allowed = by_outputs ? "fewer outputs, or fewer output.variables" : allowed});
+}
+
+}  // namespace
+
+Estimate estimate_of(const Scenario& s, const pulse::Problem& problem) {
+  Estimate need = observed(s);
+  need.memory += double_size * solver_per_cell * problem.cells;
+  need.disk += double_size * state_per_cell * problem.cells;
+  return need;
+}
+
+Estimate estimate_of(const Scenario& s, const chain::ScaledProblem& chain) {
+  Estimate need = observed(s);
+  need.memory += memory_of(chain);
+  need.disk += double_size * state_per_site * sites_of(chain);
+  return need;
+}
+
+Estimate estimate_of(const Scenario& s, const std::vector<chain::ScaledProblem>& chains) {
+  const Estimate one = observed(s);
+  const double levels = 3 + static_cast<double>(chains.size());  // the closed form, if any, comes later
+  double largest = double_size * solver_per_cell * s.pulse.cells;
+  for (const chain::ScaledProblem& chain : chains) largest = std::max(largest, memory_of(chain));
+  // The level that runs now has its own copy of its observations, in addition to that of the comparison.
+  return {one.outputs, (levels + 1) * one.memory + largest, levels * one.disk};
+}
+
+std::string in_words(const Estimate& need) {
+  return digits(need.outputs, 9) + " snapshots: " + digits(need.memory_with_file() / 1e9, 3) + " GB of memory, " +
+         digits(need.disk / 1e9, 3) + " GB on the disk with -o";
+}
+
+void require_memory(const Scenario& s, const pulse::Problem& problem) {
+  require(s, estimate_of(s, problem), "pulse.cells", "", "fewer cells or outputs");
+}
+
+void require_memory(const Scenario& s, const chain::ScaledProblem& chain, double share_of_machine) {
+  Estimate need = estimate_of(s, chain);
+  need.memory -= (1 - share_of_machine) * memory_of(chain);
+  require(s, need, s.chain.spacing ? "chain.spacing" : "chain.scale", " and " + digits(sites_of(chain), 4) + " sites",
+          "fewer sites, cells or outputs");
+}
+
+void require_memory(const Scenario& s, const std::vector<chain::ScaledProblem>& chains) {
+  require(s, estimate_of(s, chains), "pulse.cells",
+          ", " + digits(3.0 + static_cast<double>(chains.size())) + " levels together",
+          "smaller scales, fewer cells or outputs");
+}
+
+}  // namespace slipfront::scenario
