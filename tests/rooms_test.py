@@ -25,14 +25,13 @@ MODULES = {
     "pulse": "output friction rupture modulation train elliptic",
     "plane": "output pulse friction modulation train elliptic",
     "friction_ratio": "friction",
-    "scenario": "chain pulse plane friction train medium",
+    "scenario": "chain pulse plane output friction rupture train elliptic medium",
     "catalogue": "friction_ratio rupture medium",
     "inference": "catalogue friction_ratio rupture medium elliptic",
     "finite_fault": "inference catalogue friction_ratio friction pulse rupture modulation train medium",
     "results": "finite_fault inference catalogue friction_ratio rupture medium",
-    "setup": "scenario chain pulse plane output friction rupture modulation train elliptic",
     "record": "results finite_fault friction catalogue plane output medium",
-    "run": "record friction setup results finite_fault inference catalogue scenario chain pulse plane output medium",
+    "run": "record friction results finite_fault inference catalogue scenario chain pulse plane output rupture modulation train medium",
 }
 
 # The folders of a module, from the bottom up, with the folders of the same module that they may include. "." stands for the
@@ -42,8 +41,6 @@ FOLDERS = {
     "finite_fault": {"source": "."},
     "inference": {"sampling": ""},
     "record": {"files": "", "netcdf": "files", "pulses": "netcdf files", "events": "pulses netcdf files", "faults": "netcdf files", "planes": "pulses netcdf files"},
-    "scenario": {"units": ".", "text": ". units", "formula": "text", "profile": "formula text", "friction": ". profile formula text",
-                 "plane": ". profile formula text"},
     "foundation": {"math": "text", "simd": "", "text": ""},
     "friction": {"state": "", "train_means": "", "laws": "state train_means"},
     "chain": {

@@ -32,6 +32,15 @@ Friction Friction::with(Closure closure) const {
   return other;
 }
 
+Friction Friction::with(std::string_view parameter, double value) const {
+  std::vector<double> values = values_;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (definition_->parameters[i].name == parameter) values[i] = value;
+  Friction other(*definition_, std::move(values), closure_, curve_);
+  other.varying_ = varying_;
+  return other;
+}
+
 Friction Friction::with(std::string_view parameter, AlongInterface value) const {
   Friction other = *this;
   other.varying_.insert_or_assign(std::string(parameter), std::move(value));
@@ -55,8 +64,7 @@ Friction Friction::scaled_by(double scale) const {
     return dimension == Dimension::slip || dimension == Dimension::time ? value * scale : value;
   };
   std::vector<double> values = values_;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = in_scale(values[i], definition_->parameters[i].dimension);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = in_scale(values[i], definition_->parameters[i].dimension);
   Friction scaled(*definition_, std::move(values), closure_, curve_);
   for (const auto& [name, value] : varying_)
     scaled.varying_.emplace(name, [=, dimension = definition_->find(name)->dimension, at = value](double x, double y) {

@@ -26,6 +26,8 @@ constexpr double largest_slip_lines = 10;  ///< dislocation lines that the large
 
 std::string in_unit(double value, const char* unit) { return '"' + shortest(value) + ' ' + unit + '"'; }
 
+std::string in_pascals(double stress) { return shortest(stress) + " Pa"; }
+
 double asperity_spacing(const FaultOnPlane& model) {
   return model.fault.largest_slip / (medium::face_factor * largest_slip_lines);
 }
@@ -39,12 +41,19 @@ std::string medium_table(const FaultOnPlane& model, double contact_ratio) {
          "\nasperity_spacing = " + in_unit(asperity_spacing(model), "m") + "\n";
 }
 
+double rounded(double number) { return medium::number(digits(number, 3)).value(); }
+
+double force_unit(const medium::Elastic& rock, double contact_ratio) {
+  return medium::traction_unit(rock.shear_modulus, rock.poisson_ratio, contact_ratio);
+}
+
 /// Spacing of the sites, for lines that are up to 1.5 times as dense as the differences of the slip imply.
 double spacing_for(const OnPlane& fault, double contact_ratio) {
   const double stress = fault.largest_gradient * 2 * pi / (medium::face_factor * contact_ratio);
   return std::fmin(0.4, 2 * pi / (5.5 * stress));
 }
 
+/// The scenario, with this strength in Pa.
 std::string text_of(const FaultOnPlane& model, const std::string& file, double contact_ratio, double strength) {
   const OnPlane& f = model.fault;
   const double margin = margin_of(f), half_x = f.cell_length / 2, half_y = f.cell_width / 2;
@@ -53,8 +62,6 @@ std::string text_of(const FaultOnPlane& model, const std::string& file, double c
                                   0.1 * std::fmin(f.x.back() - f.x.front(), f.y.back() - f.y.front()));
   const medium::Elastic rock = medium::elastic(model.event.observation, {});
   const medium::Units unit = medium::units(rock.shear_modulus, rock.speed, contact_ratio, asperity_spacing(model));
-  const double force = medium::traction_unit(rock.shear_modulus, rock.poisson_ratio, contact_ratio);
-  const auto rounded = [](double number) { return medium::number(digits(number, 3)).value(); };
   const int cells = static_cast<int>(std::clamp(std::round(3 * width / f.cell_length), 40.0, 400.0));
   return "title = \"rupture from the slip of " + std::filesystem::path(file).filename().string() +
          "\"\n[plane]\nleft = " + in_unit(f.x.front() - half_x - margin, "m") +
@@ -63,8 +70,8 @@ std::string text_of(const FaultOnPlane& model, const std::string& file, double c
          "\ntop = " + in_unit(f.y.back() + half_y + margin, "m") + "\ncells = " + std::to_string(cells) +
          "\nedges = \"absorbing\"\n[initial]\nprofile = \"grid\"\nunits = \"SI\"\nfile = '" +
          std::filesystem::path(file).filename().string() +
-         "'\n[friction]\nlaw = \"slip-weakening\"\nstrength = " + in_unit(rounded(strength) * force, "Pa") +
-         "\nresidual = 0" + "\ncharacteristic_slip = " + in_unit(medium::face_factor * unit.slip, "m") +
+         "'\n[friction]\nlaw = \"slip-weakening\"\nstrength = " + '"' + in_pascals(strength) + '"' + "\nresidual = 0" +
+         "\ncharacteristic_slip = " + in_unit(medium::face_factor * unit.slip, "m") +
          "\n[nucleation]\nradius = " + in_unit(radius, "m") + "\n[time]\nend = " + in_unit(2 * f.end, "s") +
          "\n[chain]\nscale = 1\nspacing = " + in_unit(rounded(spacing_for(f, contact_ratio)) * unit.length, "m") +
          "\n" + medium_table(model, contact_ratio);
@@ -155,15 +162,24 @@ scenario::Scenario scenario_of_fault(const FaultOnPlane& model, const std::strin
                       .key = "medium.contact_ratio",
                       .problem = "the model has no rupture velocity below c, from which the contact ratio follows",
                       .allowed = "--set medium.contact_ratio=..."});
-  const scenario::Scenario without =
-      scenario::read_scenario(text_of(model, file, *contact_ratio, 1), file, overrides, read_table);
-  scenario::plane_solver(without, scenario::Lines::direct, 1);  // refuses what needs too much memory
-  const plane::Schedule grid = scenario::plane_schedule(without, scenario::Lines::direct);
+  const auto rows = [&](const std::string& path, const std::vector<std::string>& columns) {
+    return path == file ? finite_fault::slip_to_come(model.fault, margin_of(model.fault)) : read_table(path, columns);
+  };
+  // The strength depends on the other numbers of the scenario, which `overrides` may change.
+  const double unit = force_unit(medium::elastic(model.event.observation, {}), *contact_ratio);
+  scenario::Scenario s = scenario::read_scenario(text_of(model, file, *contact_ratio, unit), file, overrides, rows);
+  const std::string unknown = in_pascals(unit);
+  const std::size_t at = s.text.find(unknown);
+  if (at == std::string::npos) return s;                  // `overrides` give it
+  scenario::plane_solver(s, scenario::Lines::direct, 1);  // refuses what needs too much memory
+  const plane::Schedule grid = scenario::plane_schedule(s, scenario::Lines::direct);
   const double unbalanced = plane::largest_unbalanced_force(
-      without.plane->problem, {.scale = scenario::scale_of_lines(without), .spacing = *without.chain.spacing}, grid.nx,
-      grid.ny);
-  return scenario::read_scenario(text_of(model, file, *contact_ratio, stronger * unbalanced), file, overrides,
-                                 read_table);
+      s.plane->problem, {.scale = scenario::scale_of_lines(s), .spacing = *s.chain.spacing}, grid.nx, grid.ny);
+  const double strength = rounded(stronger * unbalanced) * unit;
+  s.text.replace(at, unknown.size(), in_pascals(strength));
+  const double in_model = strength / force_unit(medium::elastic(s.medium, {}), *s.medium.contact_ratio);
+  s.friction = s.plane->problem.friction = s.friction.with("strength", in_model);
+  return s;
 }
 
 std::vector<Row> compare_with_model(const FaultOnPlane& model, const scenario::Scenario& s, const PlaneResult& result) {

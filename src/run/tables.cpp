@@ -1,5 +1,6 @@
 #include "run/tables.hpp"
 
+#include "catalogue/fault_model.hpp"
 #include "finite_fault/on_plane.hpp"
 #include "record/files/text_file.hpp"
 #include "record/netcdf/table_file.hpp"
@@ -14,7 +15,9 @@ std::vector<std::vector<double>> read_table(const std::string& path, const std::
     throw InputError({.file = path,
                       .problem = "a finite-fault model has no such columns",
                       .allowed = "initial.profile = \"grid\" on a plane"});
-  const finite_fault::OnPlane fault = fault_on_plane(record::read_text(path), path).fault;
+  const catalogue::FaultModel model = catalogue::read_fault_model(record::read_text(path), path);
+  const finite_fault::OnPlane fault =
+      finite_fault::on_plane(finite_fault::finite_source(model, medium::defaults_of({}), {}));
   return finite_fault::slip_to_come(fault, margin_of(fault));
 }
 

@@ -80,7 +80,8 @@ std::vector<Key> initial_keys() {
       units_key(table, "formula or the columns of file"),
       other_key(table, "file", KeyType::text, "required by the profiles table and radial",
                 "CSV or NetCDF file with x and stress, or with r and slip; relative to the scenario file"),
-      other_key(table, "hold", KeyType::truth, "false", "a static load holds at rest the stress that is not in equilibrium"),
+      other_key(table, "hold", KeyType::truth, "false",
+                "a static load holds at rest the stress that is not in equilibrium"),
   };
 }
 
@@ -190,7 +191,8 @@ std::vector<Key> plane_keys() {
       count("cells", {.least = 4, .most = 10'000}, "200", "cells of the results and of the grid along x"),
       count("loops", {.least = 4, .most = 10'000}, "120", "cells of the averaged solver across the lines"),
       count("angles", {.least = 8, .most = 10'000}, "128", "directions of the averaged solver around the origin"),
-      other_key(table, "fixed", KeyType::formula, "nowhere", "the interface is held where this formula of x and y is not 0"),
+      other_key(table, "fixed", KeyType::formula, "nowhere",
+                "the interface is held where this formula of x and y is not 0"),
       units_key(table, "x and y in fixed"),
       number_key(table, "wave_speed_ratio", ModelUnit::none, above_zero, "1",
                  "speed of waves along y over that along x, the direction of slip"),
@@ -325,7 +327,8 @@ std::string Key::allowed() const {
   for (const std::string_view choice : words) text += (text.empty() ? "" : ", ") + std::string(choice);
   if (!text.empty()) return text;
   if (type == KeyType::truth) return "true, false";
-  const bool numeric = type == KeyType::number || type == KeyType::whole_number || type == KeyType::numbers || type == KeyType::quantity;
+  const bool numeric =
+      type == KeyType::number || type == KeyType::whole_number || type == KeyType::numbers || type == KeyType::quantity;
   if (!numeric || !(std::isfinite(limits.least) || std::isfinite(limits.most))) return "";
   return limits.text().substr(std::string_view("a finite number ").size());
 }

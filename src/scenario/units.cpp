@@ -11,7 +11,6 @@
 
 namespace slipfront::scenario {
 
-
 namespace {
 
 bool needs_spacing(ModelUnit unit) {

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The friction of a problem: a law, its parameters, which may vary along the interface, and the closure of its average.
-/// Copies are cheap.
+/// The friction of a problem: a law, its parameters, which may vary along the interface, and the closure of its
+/// average. Copies are cheap.
 
 #include <functional>
 #include <map>
@@ -37,7 +37,10 @@ class Friction {
   const StateEvolution& evolution() const { return law_->evolution(); }
   Closure closure() const { return closure_; }
   Friction with(Closure closure) const;
-  /// This friction with a parameter that varies. Solvers support this for the coefficient of viscous friction on a plane.
+  /// This friction with another value of a parameter.
+  Friction with(std::string_view parameter, double value) const;
+  /// This friction with a parameter that varies. Solvers support this for the coefficient of viscous friction on a
+  /// plane.
   Friction with(std::string_view parameter, AlongInterface value) const;
   /// The force at a position over the force of the law with its own coefficient. It is 1 unless the coefficient varies.
   double factor(double x, double y) const;
