@@ -12,6 +12,13 @@
 #include "slipfront/plane/source_parameters.hpp"
 
 namespace slipfront::plane {
+
+double memory_of_results(const Schedule& schedule) {
+  // A snapshot has slip and slip velocity. The maps are those of the file and of the saved state.
+  constexpr double fields = 2, maps = 10;
+  return static_cast<double>(schedule.nx) * schedule.ny * sizeof(double) *
+         (fields * static_cast<double>(schedule.times.size()) + maps);
+}
 namespace {
 
 double largest_size(const std::vector<double>& values) {
@@ -151,8 +158,7 @@ Maps Run::maps() const {
 
 namespace {
 
-constexpr const char* finer =
-    "more cells, or in a direct run a smaller spacing of sites, are needed";
+constexpr const char* finer = "more cells, or in a direct run a smaller spacing of sites, are needed";
 
 /// Whether the energy of a run is large enough to compare its parts.
 bool has_energy(const Solver& solver, const Budget& budget) {

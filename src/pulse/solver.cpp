@@ -29,6 +29,16 @@ struct Solver::Parts {
   }
 };
 
+double Solver::memory_needed(int cells) {
+  constexpr double each = 66;  // doubles of a cell: states, fluxes, the stages of a step and its Jacobian
+  return sizeof(double) * each * cells;
+}
+
+double Solver::disk_needed(int cells) {
+  constexpr double each = 12;  // doubles of a cell in the two saved states, including the edges of x
+  return sizeof(double) * each * cells;
+}
+
 Solver::Solver(Problem problem) : parts_(std::make_unique<Parts>(std::move(problem))) {}
 Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;

@@ -28,6 +28,10 @@ class Solver {
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
 
+  /// Approximate number of bytes of a solver with this number of cells, and of its saved state in a file.
+  static double memory_needed(int cells);
+  static double disk_needed(int cells);
+
   /// Replaces the cells by other cells of the same problem. \throws InputError if they do not fit it.
   void restore(Cells cells);
   void archive(Archive& a);

@@ -15,11 +15,6 @@
 namespace slipfront::scenario {
 namespace {
 
-constexpr double fields = 2;  // slip and slip velocity
-constexpr double maps = 10;   // maps of the file, and those of the saved state
-
-double cells_of(const plane::Schedule& schedule) { return static_cast<double>(schedule.nx) * schedule.ny; }
-
 /// The largest initial slip, which no solver takes below 0, on the grid of the results.
 double largest_slip(const plane::Problem& p, int nx, int ny) {
   double largest = 0;
@@ -108,13 +103,13 @@ plane::Schedule plane_schedule(const Scenario& s, Lines lines) {
   plane::Schedule schedule;
   schedule.times = output_times(s);
   schedule.nx = s.plane->cells;
-  schedule.ny = static_cast<int>(std::clamp(std::round((p.top - p.bottom) / cell), 4.0, 10'000.0));
-  const double need = cells_of(schedule) * 8 * (fields * static_cast<double>(schedule.times.size()) + maps);
-  if (2 * need > usable_memory())
+  schedule.ny = p.rows_of_cells(schedule.nx);
+  const double need = 2 * plane::memory_of_results(schedule);
+  if (need > usable_memory())
     throw InputError({.file = s.file,
                       .key = "plane.cells",
-                      .problem = "the results need " + digits(2 * need / 1e9, 3) +
-                                 " GB of memory, this process may have " + digits(usable_memory() / 1e9, 3) + " GB",
+                      .problem = "the results need " + digits(need / 1e9, 3) + " GB of memory, this process may have " +
+                                 digits(usable_memory() / 1e9, 3) + " GB",
                       .allowed = "fewer cells or fewer output times"});
   schedule.interval = std::fmax(cell, s.end / most_rows);
   set_rupture_rule(s, lines, schedule);
@@ -123,8 +118,6 @@ plane::Schedule plane_schedule(const Scenario& s, Lines lines) {
   return schedule;
 }
 
-double plane_file_size(const plane::Schedule& schedule) {
-  return cells_of(schedule) * 8 * (fields * static_cast<double>(schedule.times.size()) + maps) + (1 << 16);
-}
+double plane_file_size(const plane::Schedule& schedule) { return plane::memory_of_results(schedule) + (1 << 16); }
 
 }  // namespace slipfront::scenario

@@ -12,12 +12,9 @@ namespace slipfront::scenario {
 namespace {
 
 constexpr double double_size = sizeof(double);
-constexpr double observed_fields = 5;   // fields in output::Profile
-constexpr double written_fields = 8;    // fields in a file, at most
-constexpr double scalars = 16;          // scalars in a snapshot
-constexpr double solver_per_cell = 66;  // doubles for states, fluxes, the stages of a step and its Jacobian
-constexpr double state_per_cell = 12;   // doubles in the two saved states, including the edges of x
-constexpr double state_per_site = 2;    // doubles in the saved state of a chain: two time levels
+constexpr double observed_fields = 5;  // fields in output::Profile
+constexpr double written_fields = 8;   // fields in a file, at most
+constexpr double scalars = 16;         // scalars in a snapshot
 
 /// Estimates outputs, memory and disk for the observations of a run, which are the same for a pulse and a chain.
 Estimate observed(const Scenario& s) {
@@ -57,22 +54,22 @@ void require(const Scenario& s, const Estimate& need, const char* key, const std
 
 Estimate estimate_of(const Scenario& s, const pulse::Problem& problem) {
   Estimate need = observed(s);
-  need.memory += double_size * solver_per_cell * problem.cells;
-  need.disk += double_size * state_per_cell * problem.cells;
+  need.memory += pulse::Solver::memory_needed(problem.cells);
+  need.disk += pulse::Solver::disk_needed(problem.cells);
   return need;
 }
 
 Estimate estimate_of(const Scenario& s, const chain::ScaledProblem& chain) {
   Estimate need = observed(s);
   need.memory += memory_of(chain);
-  need.disk += double_size * state_per_site * sites_of(chain);
+  need.disk += chain::disk_needed(sites_of(chain));
   return need;
 }
 
 Estimate estimate_of(const Scenario& s, const std::vector<chain::ScaledProblem>& chains) {
   const Estimate one = observed(s);
   const double levels = 3 + static_cast<double>(chains.size());  // the closed form, if any, comes later
-  double largest = double_size * solver_per_cell * s.pulse.cells;
+  double largest = pulse::Solver::memory_needed(s.pulse.cells);
   for (const chain::ScaledProblem& chain : chains) largest = std::max(largest, memory_of(chain));
   // The level that runs now has its own copy of its observations, in addition to that of the comparison.
   return {one.outputs, (levels + 1) * one.memory + largest, levels * one.disk};

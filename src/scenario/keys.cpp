@@ -188,7 +188,7 @@ std::vector<Key> plane_keys() {
       number_key(table, "top", ModelUnit::position, position_limits, "required by [plane]", "y of the upper edge"),
       word_key(table, "solver", {"loops", "grid"}, "loops",
                "averages follow star-shaped lines, or the mean slip on a grid of cells"),
-      count("cells", {.least = 4, .most = 10'000}, "200", "cells of the results and of the grid along x"),
+      count("cells", {.least = 8, .most = 10'000}, "200", "cells along x into which the plane is divided"),
       count("loops", {.least = 4, .most = 10'000}, "120", "cells of the averaged solver across the lines"),
       count("angles", {.least = 8, .most = 10'000}, "128", "directions of the averaged solver around the origin"),
       other_key(table, "fixed", KeyType::formula, "nowhere",

@@ -102,7 +102,8 @@ TEST(PlaneDirect, AgreesWithTheAverages) {
   Problem p = rings::problem(slip);
   p.left = p.bottom = -2.6;
   p.right = p.top = 2.6;
-  p.friction = friction::viscous(1).with("coefficient", [](double x, double) { return 0.5 + 0.3 * std::tanh(x / 0.2); });
+  p.friction =
+      friction::viscous(1).with("coefficient", [](double x, double) { return 0.5 + 0.3 * std::tanh(x / 0.2); });
   p.contact = [](double x, double y) { return 1 + 0.15 * std::exp(-((x - 1.7) * (x - 1.7) + y * y) / 0.1); };
   AveragedSolver averaged(p, {.loops = 60, .angles = 64});
   DirectSolver direct(p, {.scale = 60, .threads = 2});

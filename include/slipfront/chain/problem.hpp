@@ -99,6 +99,8 @@ double largest_contact(const Problem& problem);
 
 /// Bytes of memory that a run needs on all ranks together.
 double memory_needed(const Problem& problem);
+/// Bytes of the saved state of a chain with this number of sites.
+double disk_needed(double sites);
 
 /// Checks a problem without allocating memory. `share_of_machine` is the part of the chain on this machine (Ranks).
 /// \throws InputError for numbers out of range, a grid too coarse for a dislocation, an unstable step, or too little

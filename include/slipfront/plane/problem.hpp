@@ -44,6 +44,8 @@ struct Problem {
   std::optional<Nucleation> nucleation;
   Edges edges = Edges::free;
 
+  /// Number of rows of about square cells, for this number of cells along x.
+  int rows_of_cells(int along_x) const;
   /// Whether nucleation has begun at a time.
   bool nucleation_has_begun(double time) const { return nucleation && time >= nucleation->time; }
 };

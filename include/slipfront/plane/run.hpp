@@ -25,6 +25,9 @@ struct Schedule {
   bool lines = false;  ///< whether snapshots have the dislocation lines
 };
 
+/// Approximate number of bytes of the snapshots and maps of a run.
+double memory_of_results(const Schedule& schedule);
+
 /// Numbers of the whole plane at one time, in the coordinates of the results.
 struct SeriesRow {
   double time = 0;

@@ -75,7 +75,7 @@ struct ChainOptions {
 /// [plane], and the initial slip and the formulas of x and y that go with it.
 struct Plane {
   plane::Problem problem;  ///< its y is that of the scenario over `wave_speed_ratio`
-  int cells = 200;         ///< cells of the results along x
+  int cells = 200;         ///< cells along x of the results, and of the averaged solver on a grid
   bool on_grid = false;    ///< whether the averaged solver follows the mean slip on a grid
   int loops = 120;         ///< cells of the averaged solver across the dislocation lines
   int angles = 128;        ///< directions of the averaged solver

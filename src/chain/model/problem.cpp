@@ -77,6 +77,8 @@ double memory_needed(const Problem& p) {
   return static_cast<double>(p.grid.sites) * 8 * (p.implicit ? by_implicit : by_explicit);
 }
 
+double disk_needed(double sites) { return 2 * sizeof(double) * sites; }  // two time levels
+
 void check(const Problem& p, double share_of_machine) {
   const double h = p.grid.spacing;
   if (!(h > 0) || !std::isfinite(h)) refuse("spacing", h, "out of range", "> 0, finite");

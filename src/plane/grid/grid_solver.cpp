@@ -14,15 +14,9 @@
 namespace slipfront::plane {
 namespace {
 
-constexpr int fewest = 8;      ///< cells along x and y
 constexpr double tail = 1e-4;  ///< fraction of the largest initial slip that counts as none
 
-void check(const Problem& p, int cells) {
-  if (cells < fewest)
-    throw InputError({.key = "cells",
-                      .value = std::to_string(cells),
-                      .problem = "too few cells",
-                      .allowed = "at least " + std::to_string(fewest)});
+void check(const Problem& p) {
   if (p.friction.changes_contacts())
     throw InputError({.key = "friction",
                       .value = std::string(p.friction.name()),
@@ -32,7 +26,7 @@ void check(const Problem& p, int cells) {
 
 Cells cells_of(const Problem& p, int cells) {
   const double width = p.right - p.left, height = p.top - p.bottom;
-  const double rows = std::clamp(std::round(height / width * cells), static_cast<double>(fewest), 10'000.0);
+  const double rows = p.rows_of_cells(cells);
   Cells all;
   all.nx = static_cast<std::size_t>(cells);
   all.ny = static_cast<std::size_t>(rows);
@@ -130,7 +124,7 @@ struct GridSolver::Parts {
 };
 
 GridSolver::GridSolver(const Problem& problem, int cells) {
-  check(problem, cells);
+  check(problem);
   parts_ = std::make_unique<Parts>(problem, cells);
 }
 GridSolver::~GridSolver() = default;
