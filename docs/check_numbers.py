@@ -309,7 +309,7 @@ ENTRIES = [
           lambda: numbers_on("claims.md", "with the paper's closure is up to {} % above the chain. Range: C = 0 to 2 (Gamma = C t to 12.6), scale {}.")),
     Entry("trust.md", "slip within {} % for C = 0 to {}, at scale 4000",
           lambda: [*numbers_on("claims.md", "The pulse with the consistent closure is within {} % of the chain in every row"), 2]),
-    Entry("trust.md", "An observer with a fixed threshold sees that edge {} % slower at C = 2. The leading edge is {} % slower.",
+    Entry("reproduction.md", "| seen at a fixed W | Refuted: {} % slower | | the leading edge | Refuted: {} % slower |",
           lambda: numbers_on("claims.md", "sees it: {} % slower on the chain") + numbers_on("claims.md", "Leading edge: {} % slower on the chain")),
     Entry("../python/slipfront/reproduce/report.py", "within {} %, and the paper's closure is up to {} % above the chain (docs/claims.md)",
           lambda: numbers_on("claims.md", "The pulse with the consistent closure is within {} % of the chain in every row") +

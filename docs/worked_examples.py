@@ -103,23 +103,8 @@ python3 docs/worked_examples.py build/release/bin/slipfront > docs/worked_exampl
 
 The script computes the tables. The text around them was written for the numbers shown.
 
-## Symbols
-
-| symbol | meaning | unit |
-|---|---|---|
-| C | coefficient of viscous friction | 1 |
-| t, T | time, duration | b / (c A) |
-| Gamma = C t | damping number | 1 |
-| A | contact ratio: real over nominal area of contact | 1 |
-| b, c | asperity spacing, speed of strain waves | m, m/s |
-| Sigma-, Sigma+ | stress before the rupture, on the stressed side and on the other side | mu A / pi |
-| mu | shear modulus | Pa |
-| W, W(0) | slip velocity, and its value at x = 0 | c A / pi |
-| V, V- | rupture velocity, velocity of the fast front | c |
-
-The closures "paper" and "consistent" are two averages of friction
-([theory/3_modulation.md](theory/3_modulation.md), 3.3). The closure "consistent" is exact, and the
-closure "paper" understates friction.
+[NOTATION.md](NOTATION.md) has the symbols. The closures "paper" and "consistent" are two averages
+of friction ([page 3](theory/3_modulation.md), 3.3), of which "paper" understates it.
 
 ## The verdict
 
