@@ -95,7 +95,9 @@ constexpr output::Quantity<Report> of_run[] = {
     {{"slip_velocity_at_probes", "slip velocity at output.probes", "c A / pi", "Eq. 4", {}, Error::slip_velocity},
      [](const Report& e) -> Value { return e.slip_velocity_at_probes; }},
     {{"peak_slip_velocity", "largest slip velocity of a cell since t = 0", "c A / pi", on_a_plane},
-     [](const Report& e) -> Value { return *std::ranges::max_element(e.maps.peak_slip_velocity); }},
+     [](const Report& e) -> Value {
+       return *std::max_element(e.maps.peak_slip_velocity.begin(), e.maps.peak_slip_velocity.end());
+     }},
     {{"ruptured_area", "area of the cells that have ruptured", "b^2 / A^2", on_a_plane},
      [](const Report& e) -> Value { return ruptured_area(e); }},
     {{"last_rupture_time", "time at which the last of these cells ruptured", "b / (c A)", on_a_plane,
