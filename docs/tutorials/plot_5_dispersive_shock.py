@@ -127,6 +127,7 @@ print(f"slip over x, difference from the chain: one train {error(one):.1f} %, ma
 # Limits
 # ------
 #
-# Several trains are exact without friction and load. With friction, the trains slow each other
-# down, and one train with shocks is a good approximation (``slipfront.pulse`` without ``trains``).
+# Several trains are exact without friction and load. Viscous friction and a load may act on two
+# trains. With strong friction, one train with shocks is a good approximation
+# (``slipfront.pulse`` without ``trains``).
 # Where a gap closes, the chain has waves of small amplitude, which the averages do not have.

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
+
+#include "foundation/math/linear.hpp"
 
 namespace slipfront::rupture {
 namespace {
@@ -12,39 +13,6 @@ namespace {
 using std::numbers::pi;
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-/// Solves A x = b for both right sides by elimination with pivots scaled by their rows. A is square, row by row.
-void solve_conditions(std::vector<double> matrix, std::vector<double>& one, std::vector<double>& two) {
-  const std::size_t n = one.size();
-  std::vector<double> scale(n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) scale[i] = std::fmax(scale[i], std::fabs(matrix[i * n + j]));
-  for (std::size_t j = 0; j < n; ++j) {
-    std::size_t best = j;
-    for (std::size_t i = j + 1; i < n; ++i)
-      if (std::fabs(matrix[i * n + j]) * scale[best] > std::fabs(matrix[best * n + j]) * scale[i]) best = i;
-    if (best != j) {
-      for (std::size_t k = 0; k < n; ++k) std::swap(matrix[best * n + k], matrix[j * n + k]);
-      std::swap(scale[best], scale[j]);
-      std::swap(one[best], one[j]);
-      std::swap(two[best], two[j]);
-    }
-    for (std::size_t i = j + 1; i < n; ++i) {
-      const double factor = matrix[i * n + j] / matrix[j * n + j];
-      for (std::size_t k = j + 1; k < n; ++k) matrix[i * n + k] -= factor * matrix[j * n + k];
-      one[i] -= factor * one[j];
-      two[i] -= factor * two[j];
-    }
-  }
-  for (std::size_t j = n; j-- > 0;) {
-    for (std::size_t k = j + 1; k < n; ++k) {
-      one[j] -= matrix[j * n + k] * one[k];
-      two[j] -= matrix[j * n + k] * two[k];
-    }
-    one[j] /= matrix[j * n + j];
-    two[j] /= matrix[j * n + j];
-  }
-}
 
 /// 1 - product of (1 - part) for parts between 0 and 1, and product of (1 + part) - 1. Neither cancels.
 void add_loss(double& loss, double part) { loss += (1 - loss) * part; }
@@ -124,7 +92,7 @@ void BandDifferentials::solve(double bands) {
   beta_.assign(trains_, 0);
   add_lowest_gap(bands);
   add_inner_gaps();
-  solve_conditions(matrix_, alpha_, beta_);
+  solve_linear(matrix_, {&alpha_, &beta_});
 }
 
 /// In the lowest gap, lambda = E_1 sn^2. From dp and dw we subtract functions with their poles at r = -infinity, which
@@ -341,10 +309,10 @@ std::vector<std::vector<double>> BandDifferentials::normal_differentials() const
   std::vector<std::vector<double>> result(edges_, std::vector<double>(N));
   for (std::size_t i = 0; i < N; ++i) {
     // Its integral is -1 over the gap below band i, 1 over that above, and 0 over the others.
-    std::vector<double> gamma(N, 0.0), unused(N, 0.0);
+    std::vector<double> gamma(N, 0.0);
     gamma[i] = i == 0 ? 1 : -1;  // the matrix has the lowest gap with the opposite sign
     if (i + 1 < N) gamma[i + 1] = 1;
-    solve_conditions(matrix_, gamma, unused);
+    solve_linear(matrix_, {&gamma});
     for (std::size_t j = 0; j < edges_; ++j) {
       double f = j % 2 == 0 ? gamma[j / 2] : 0, square = 0.5;
       for (std::size_t n = 0; n < edges_; n += 2) {

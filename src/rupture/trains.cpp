@@ -6,8 +6,10 @@
 #include <numbers>
 #include <string>
 
+#include "foundation/math/linear.hpp"
 #include "foundation/text/digits.hpp"
 #include "rupture/band_differentials.hpp"
+#include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::rupture {
@@ -185,6 +187,61 @@ BandDerivatives derivatives(const FilledBands& bands) {
     for (std::size_t i = 0; i < bands.trains(); ++i) result.k.back().push_back(side * dp * normal[j][i]);
   }
   return result;
+}
+
+namespace {
+
+/// The changes of one train: the spacing l stays, and M_t = 2 pi F - C M (Eq. 7 for one dislocation). l = 2 K / (cosh
+/// phi cosh psi) and M = 8 sinh phi cosh psi E.
+std::vector<double> sources_of_train(const State& train, double load, double viscosity) {
+  const double c = std::cosh(train.phi), s = std::sinh(train.phi);
+  if (train.psi < least_width) {
+    const double phi_t = (2 * pi * load - viscosity * 8 * s) / (8 * c);
+    return {phi_t, phi_t};
+  }
+  const elliptic::AtPsi at = elliptic::at_psi(train.psi);
+  const double tall = std::cosh(train.psi);
+  const double psi_per_phi = (s / c) / (elliptic::log_slope_of_K(at) - at.s);  // at constant l
+  const double M_per_phi = 8 * tall * (c * at.E + s * at.s * at.K * psi_per_phi);
+  const double phi_t = (2 * pi * load - viscosity * 8 * s * tall * at.E) / M_per_phi;
+  return {phi_t - psi_per_phi * phi_t, phi_t + psi_per_phi * phi_t};
+}
+
+/// The changes of two trains: the numbers of both trains, P and H give four linear equations, Eq. (9.11).
+std::vector<double> sources_of_two(const FilledBands& bands, double load, double viscosity) {
+  const BandDerivatives d = derivatives(bands);
+  const BandAverages now = averages(bands);
+  constexpr std::size_t n = 4;
+  std::vector<double> matrix(n * n), change(n), largest(n);
+  for (std::size_t j = 0; j < n; ++j) {
+    const double column[n] = {d.k[j][0], d.k[j][1], d.speeds[j] * d.H[j], d.H[j]};
+    for (const double value : column) largest[j] = std::fmax(largest[j], std::fabs(value));
+    for (std::size_t i = 0; i < n; ++i) matrix[i * n + j] = column[i] / largest[j];
+  }
+  double squared_rate = 0;  // <u_t^2>
+  for (const TrainShare& train : now.trains) squared_rate += train.omega * train.I;
+  change = {0, 0, load * now.k - viscosity * now.P, load * now.W - viscosity * squared_rate};
+  solve_linear(std::move(matrix), {&change});
+  for (std::size_t j = 0; j < n; ++j) change[j] /= largest[j];
+  return change;
+}
+
+}  // namespace
+
+std::vector<double> edge_sources(const FilledBands& bands, double load, double viscosity) {
+  check_bands(bands, true);
+  if (bands.trains() == 1) return sources_of_train({bands.centre, bands.widths[0] / 2}, load, viscosity);
+  if (bands.trains() > 2)
+    throw InputError({.key = "number of trains",
+                      .value = digits(static_cast<double>(bands.trains())),
+                      .problem = "the effect of friction and load on three or more trains is not known",
+                      .allowed = "1 or 2"});
+  constexpr double narrowest = 1e-7;
+  const double total = bands.widths[0] + bands.widths[1] + bands.widths[2];
+  if (total == 0) return std::vector<double>(4, sources_of_train({bands.centre, 0}, load, viscosity)[0]);
+  FilledBands open = bands;
+  for (double& width : open.widths) width = std::fmax(width, narrowest * total);
+  return sources_of_two(open, load, viscosity);
 }
 
 }  // namespace slipfront::rupture

@@ -127,16 +127,16 @@ void require_averages(const Scenario& s) {
            "slipfront chain, or a contact > 0");
 }
 
-/// Several trains at one position are exact without friction and load. Ends at which trains are reflected are not among
-/// them.
-void require_free_motion(const Scenario& s, const pulse::Problem& p) {
+/// The effect of other friction on several trains at one position is not known, nor are ends that reflect trains.
+void require_known_motion(const Scenario& s, const pulse::Problem& p) {
   const bool at_wall = p.left_end == pulse::End::fixed || p.right_end == pulse::End::fixed;
-  const char* const there = p.friction.acts() ? "there is friction"
-                            : p.forcing       ? "there is a load"
-                            : p.contact       ? "the contact ratio changes along x"
-                            : p.periodic      ? "the domain is a ring"
-                            : at_wall         ? "a wall is at an end of the domain"
-                                              : nullptr;
+  const bool other_friction =
+      p.friction.acts() && (!p.friction.linear_coefficient() || p.friction.closure() == friction::Closure::paper);
+  const char* const there = other_friction ? "friction is not viscous with the consistent closure"
+                            : p.contact    ? "the contact ratio changes along x"
+                            : p.periodic   ? "the domain is a ring"
+                            : at_wall      ? "a wall is at an end of the domain"
+                                           : nullptr;
   if (there)
     throw InputError({.file = s.file,
                       .key = "pulse.trains",
@@ -198,7 +198,7 @@ pulse::Problem pulse_problem(const Scenario& s) {
   require_averages(s);
   pulse::Problem problem = stated_problem(s);
   if (problem.many_trains)
-    require_free_motion(s, problem);
+    require_known_motion(s, problem);
   else if (std::find(s.output.variables.begin(), s.output.variables.end(), "trains") != s.output.variables.end())
     throw InputError({.file = s.file,
                       .key = "output.variables",

@@ -46,10 +46,11 @@ class Trains(CommandLine):
             self.assertEqual(a.read(), b.read())
 
     def test_refuses_what_its_averages_do_not_know(self):
-        for change, says in (("friction.law=viscous", "friction"), ("forcing.formula=0.01", "load"), ("interface.contact=1+0.1*x^2", "contact"),
+        for change, says in (("friction.law=coulomb", "friction is not viscous"), ("interface.contact=1+0.1*x^2", "contact"),
                              ("pulse.left=fixed", "wall"), ("pulse.periodic=true", "ring")):
             changes = ["--set", change] + (["--set", "friction.coefficient=1"] if "friction" in change else [])
             self.refused(2, "pulse", CASE, *changes, says=["pulse.trains = 'many'", says, 'trains = "one"'])
+        self.refused(4, "pulse", CASE, "--set", "friction.law=viscous", "friction.coefficient=0.2", says=["three trains are at x = ", "slipfront chain"])
         self.refused(2, "pulse", CASE, "--set", "pulse.trains=two", says=["pulse.trains", "one", "many"])
         self.refused(2, "pulse", CASE, "--set", "pulse.trains=one", "--set", 'output.variables=["trains"]', says=["output.variables", "many"])
 

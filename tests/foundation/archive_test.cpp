@@ -47,7 +47,7 @@ TEST(Archive, RestoresWhatItSaved) {
   EXPECT_EQ(saved(read), bytes);
 }
 
-/// Bytes that are cut anywhere, that go on, or of another format.
+/// Bytes that are cut anywhere, that are too many, or that have another format.
 TEST(Archive, RefusesDamagedBytes) {
   const std::string bytes = saved(something());
   Everything read;

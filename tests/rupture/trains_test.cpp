@@ -291,4 +291,51 @@ TEST(Trains, RefuseWidthsWithoutAMeaning) {
   EXPECT_THROW(rupture::edge_speeds({0, {1e-305}}), InputError);
 }
 
+/// The averages of moved edges change as the balances of dislocations, momentum and energy require.
+TEST(Trains, FrictionAndLoadChangeTheEdgesAsTheBalancesRequire) {
+  std::mt19937_64 draw(47);
+  std::uniform_real_distribution<double> any(-1, 1), log_width(std::log(1e-3), std::log(2.0));
+  for (int n = 0; n < 200; ++n) {
+    FilledBands bands{any(draw), std::vector<double>(n % 2 == 0 ? 3 : 1)};
+    for (double& width : bands.widths) width = std::exp(log_width(draw));
+    const double load = any(draw), viscosity = std::fabs(any(draw));
+    const std::vector<double> sources = rupture::edge_sources(bands, load, viscosity), edges = bands.edges();
+    const auto moved = [&](double by) {
+      std::vector<double> to = edges;
+      for (std::size_t j = 0; j < to.size(); ++j) to[j] += by * sources[j];
+      return rupture::averages(rupture::bands_of_edges(to));
+    };
+    const double narrowest = *std::min_element(bands.widths.begin(), bands.widths.end());
+    double fastest = 0;
+    for (const double r_t : sources) fastest = std::fmax(fastest, std::fabs(r_t));
+    const double h = 1e-3 * narrowest / fastest;
+    const BandAverages a = moved(-h), b = moved(h), now = rupture::averages(bands);
+    double squared_rate = 0;
+    for (const auto& train : now.trains) squared_rate += train.omega * train.I;
+    const double gained_P = load * now.k - viscosity * now.P, gained_H = load * now.W - viscosity * squared_rate;
+    const double tolerance = 1e-5 * (std::fabs(load) * now.k + viscosity * now.H) + 1e-13 / h;
+    EXPECT_NEAR((b.P - a.P) / (2 * h), gained_P, tolerance) << n;
+    EXPECT_NEAR((b.H - a.H) / (2 * h), gained_H, tolerance) << n;
+    for (std::size_t i = 0; i < now.trains.size(); ++i)
+      EXPECT_NEAR((b.trains[i].k - a.trains[i].k) / (2 * h), 0, tolerance) << n;
+  }
+}
+
+TEST(Trains, SourcesTendToThoseOfOneTrainWhereAGapOrBandCloses) {
+  const double load = 0.2, viscosity = 0.4;
+  const auto sources = [&](FilledBands bands) { return rupture::edge_sources(bands, load, viscosity); };
+  const std::vector<double> one = sources({0.3, {1.1}}), closed = sources({0.3, {0.5, 0, 0.6}});
+  for (const double gap : {1e-3, 1e-5, 1e-8}) {
+    const std::vector<double> two = sources({0.3, {0.5, gap, 0.6 - gap}});
+    EXPECT_NEAR(two[0], one[0], 1e-3 * gap + 1e-8);
+    EXPECT_NEAR(two[3], one[1], 1e-3 * gap + 1e-8);
+    EXPECT_NEAR((two[1] + two[2]) / 2, (closed[1] + closed[2]) / 2, 0.1 * gap + 1e-8);
+  }
+  const std::vector<double> empty = sources({0.3, {1.1, 0.4, 0}});
+  for (const double band : {1e-3, 1e-5, 1e-6}) {
+    const std::vector<double> few = sources({0.3, {1.1, 0.4, band}});
+    EXPECT_NEAR((few[2] + few[3]) / 2, (empty[2] + empty[3]) / 2, band + 1e-8);
+  }
+}
+
 }  // namespace

@@ -30,7 +30,7 @@ struct Problem {
   double tolerance = 1e-6;  ///< relative tolerance of the implicit steps
   double explicit_tolerance = 1e-4;  ///< relative tolerance of the explicit steps; mostly the cell size limits them
   double longest_step = HUGE_VAL;    ///< longest time step: a forcing may change while waves hardly move
-  bool many_trains = false;          ///< any number of trains at one position, without friction
+  bool many_trains = false;          ///< any number of trains at one position, under viscous friction up to two
   double cfl = 1.0;  ///< Courant number of the explicit steps: smooth problems tolerate 1.4, steps of stress do not
 };
 

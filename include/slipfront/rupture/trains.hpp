@@ -77,4 +77,10 @@ struct BandDerivatives {
 /// \throws InputError like averages.
 BandDerivatives derivatives(const FilledBands& bands);
 
+/// The changes d r_j / d t of the edges at one position by a load F and viscous friction C w, for one or two trains
+/// (docs/theory/9_trains.md 9.7). Dislocations are neither made nor lost, P gains F k - C P, and H gains
+/// F W - C <u_t^2>. A band or gap narrower than 1e-7 of the sum of all widths counts as that wide.
+/// \throws InputError like edge_speeds, and for three or more trains.
+std::vector<double> edge_sources(const FilledBands& bands, double load, double viscosity);
+
 }  // namespace slipfront::rupture

@@ -5,6 +5,7 @@
 
 #include "foundation/math/constants.hpp"
 #include "foundation/math/parabola.hpp"
+#include "modulation/equations.hpp"
 #include "pulse/contours/many_trains.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -19,6 +20,13 @@ void add_points(const Contour& contour, std::vector<double>& x) {
 /// Energy density of the train at rest with the same density.
 double energy_at_rest(double k) {
   return k >= train::smallest_stress ? train::averages(train::at_rest(k)).H : 4 * k / std::numbers::pi;
+}
+
+/// d H / d k of trains at rest: a dislocation has its energy, and does work against the pressure of the others.
+double energy_per_density(double k) {
+  if (k < train::smallest_stress) return 4 / std::numbers::pi;
+  const State at_rest = train::at_rest(k);
+  return (train::averages(at_rest).H + modulation::pressure(at_rest.psi)) / k;
 }
 
 std::vector<edges::Means> means_at(const Contour& contour, const std::vector<double>& x) {
@@ -64,13 +72,14 @@ void Along::integrate() {
     means_[i] = now[3 * i];
     if (trains_.time() == 0) means_[i].W = 0;  // at rest, to rounding of the interpolated edges
   }
+  const Work& work = trains_.work();  // 0 unless friction or a load acts
   energy_ = {.elastic = 0,
              .kinetic = 0,
-             .dissipated = 0,
-             .supplied = 0,
-             .through_ends = 0,
+             .dissipated = work.dissipated,
+             .supplied = work.supplied,
+             .through_ends = work.through_ends,
              .shocks = none,
-             .residual = 0,
+             .residual = work.supplied - work.dissipated + work.through_ends,
              .phonons = none};
   stress_.assign(nodes_.size(), 0.0);
   lost_.assign(nodes_.size(), 0.0);
@@ -93,9 +102,10 @@ void Along::integrate() {
 
 /// Adds the energy at a Gauss point of the piece behind a node, and its change since t = 0.
 void Along::add_energy(std::size_t node, double weight, const edges::Means& now, const edges::Means& first) {
-  energy_.residual -= weight * (now.H - first.H);
-  if (!(in_domain(node) && in_domain(node + 1))) {
-    energy_.through_ends -= weight * (now.H - first.H);
+  const bool inside = in_domain(node) && in_domain(node + 1);
+  if (inside || !trains_.driven()) energy_.residual -= weight * (now.H - first.H);
+  if (!inside) {
+    if (!trains_.driven()) energy_.through_ends -= weight * (now.H - first.H);
     return;
   }
   const double at_rest = now.W == 0 ? now.H : energy_at_rest(now.k);
@@ -105,12 +115,22 @@ void Along::add_energy(std::size_t node, double weight, const edges::Means& now,
 }
 
 /// At the ends of folds, the curves gain or lose some 1e-5 of the dislocations. We spread this over x in proportion to
-/// the change of the stress there, so that nothing slips ahead of the fronts.
+/// the change of the stress there, so that nothing slips ahead of the fronts, and take its energy away.
 void Along::spread_uncounted(const std::vector<double>& changed) {
-  uncounted_ = lost_.back();
-  for (std::size_t i = 0; i < lost_.size() && changed.back() > 0; ++i)
-    lost_[i] -= uncounted_ * (changed[i] / changed.back());
+  const Work& work = trains_.work();
+  uncounted_ = lost_.back() - (work.slip_at_left - work.slip_at_right);
+  if (!(changed.back() > 0)) return;
+  for (std::size_t i = 0; i < lost_.size(); ++i) lost_[i] -= uncounted_ * (changed[i] / changed.back());
+  for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) {
+    if (!(in_domain(i) && in_domain(i + 1)) || changed[i + 1] == changed[i]) continue;
+    const double k = (stress_[i + 1] - stress_[i]) / (nodes_[i + 1] - nodes_[i]);
+    const double energy = uncounted_ * ((changed[i + 1] - changed[i]) / changed.back()) * energy_per_density(k);
+    energy_.elastic -= energy;
+    energy_.residual += energy;
+  }
 }
+
+double Along::slip(std::size_t node) const { return trains_.work().slip_at_left - lost_[node]; }
 
 std::size_t Along::at(double x) const {
   return static_cast<std::size_t>(std::lower_bound(nodes_.begin(), nodes_.end(), x) - nodes_.begin());
@@ -135,7 +155,7 @@ output::Profile Along::profile(const std::vector<double>& x_edges) const {
     profile.U.push_back(here.k > 0 ? here.W / here.k : 0);
     profile.W.push_back(std::clamp(here.W, -k, k));
     profile.H.push_back(here.H);
-    profile.slip.push_back(-lost_[centre]);
+    profile.slip.push_back(slip(centre));
     profile.trains.push_back(here.trains);
   }
   return profile;

@@ -17,7 +17,7 @@ class Along {
   /// `x_edges`: edges of the cells of a profile, if one is wanted.
   explicit Along(const ManyTrains& trains, const std::vector<double>& x_edges = {});
 
-  double slip_at_origin() const { return -lost_[at(0)]; }
+  double slip_at_origin() const { return slip(at(0)); }
   /// 2 pi times the dislocations in the domain at t = 0.
   double count() const { return count_; }
   double conservation_error() const;
@@ -25,6 +25,7 @@ class Along {
   output::Snapshot snapshot(const output::Schedule& schedule) const;
 
  private:
+  double slip(std::size_t node) const;
   /// Index of a node at x.
   std::size_t at(double x) const;
   bool in_domain(std::size_t node) const;

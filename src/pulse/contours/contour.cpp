@@ -174,7 +174,8 @@ class Builder {
     std::vector<double> at(piece.x.size());
     for (std::size_t i = 0; i + 1 < at.size(); ++i) at[i + 1] = at[i] + measure_.between(piece, i);
     const auto [least, most] = std::minmax_element(piece.stress.begin(), piece.stress.end());
-    const std::size_t count = *least < *most ? points_for(at.back()) : 1;  // a straight line needs its ends only
+    const bool straight = !(*least < *most) && !problem_.forcing;  // its ends are enough
+    const std::size_t count = straight ? 1 : points_for(at.back());
     std::size_t nearest = Contour::nothing;
     std::vector<double> x(count + 1);
     for (std::size_t i = 0; i <= count; ++i) {

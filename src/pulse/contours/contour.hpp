@@ -5,10 +5,12 @@
 /// makes two trains out of one.
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
 
+#include "foundation/archive.hpp"
 #include "slipfront/pulse/problem.hpp"
 
 namespace slipfront::pulse {
@@ -20,7 +22,7 @@ struct Contour {
   std::vector<double> x;
   std::vector<double> r;                    ///< rapidity of each point
   std::vector<std::size_t> previous, next;  ///< neighbours on the same curve; nothing at the end of a curve
-  std::vector<bool> corner;                 ///< points where a curve has no tangent
+  std::vector<std::uint8_t> corner;         ///< points where a curve has no tangent
   /// The point of the fast front: the foot of the fan of a step, or where a smooth stress first differs from that at
   /// the more stressed end. Nothing if neither end is stressed.
   std::size_t front = nothing;
@@ -31,6 +33,11 @@ struct Contour {
   std::size_t size() const { return r.size(); }
   /// Whether a point is the end of a curve outside the domain. It does not move.
   bool is_end(std::size_t point) const { return previous[point] == nothing || next[point] == nothing; }
+  void archive(Archive& a);
+  /// Adds a point on the curve half-way to the next point.
+  void add_behind(std::size_t point);
+  /// Removes a point, whose number the last point gets.
+  void remove(std::size_t point);
 };
 
 /// The curves of the trains at rest at t = 0, with about `problem.cells` points on each edge. \throws InputError if

@@ -24,61 +24,166 @@ double velocity_at_origin(const Contour& contour) {
 }  // namespace
 
 ManyTrains::ManyTrains(Problem given)
-    : problem_(std::move(given)), start_(contour_at_rest(problem_)), now_(start_), state_{.x = start_.x} {}
+    : problem_(std::move(given)),
+      start_(contour_at_rest(problem_)),
+      now_(start_),
+      state_{.curves = start_},
+      viscosity_(problem_.friction.linear_coefficient().value_or(0)) {}
 
-void ManyTrains::find_speeds(const std::vector<double>& x, std::vector<double>& speeds) {
-  now_.x = x;
-  speeds.assign(x.size(), 0.0);
+/// A train continues outside the domain with the load of the end.
+edges::Forces ManyTrains::forces(double x, double time) const {
+  if (!driven()) return {};
+  return {.load = problem_.forcing ? problem_.forcing(std::clamp(x, problem_.left, problem_.right), time) : 0,
+          .viscosity = viscosity_};
+}
+
+void ManyTrains::find_velocities(double time, const Points& points, Points& velocities) {
+  now_.x = points.x;
+  now_.r = points.r;
+  velocities.x.assign(points.x.size(), 0.0);
+  velocities.r.assign(points.x.size(), 0.0);
+  third_train_ = {};
+  double before_x = 0;
+  bool before_was_third = false;
   sweep_.at_points([&](std::size_t point, const std::vector<double>& edges, std::size_t own) {
-    speeds[point] = edges::speed_of(edges, own);
+    velocities.x[point] = edges::speed_of(edges, own);
+    if (!driven()) return;
+    const edges::Source source = edges::source_of(edges, own, forces(now_.x[point], time));
+    velocities.r[point] = source.change;
+    constexpr double wide = 0.02;
+    const bool third = source.left_out > wide;
+    if (third && before_was_third) third_train_ = {third_train_.extent + (now_.x[point] - before_x), now_.x[point]};
+    before_x = now_.x[point];
+    before_was_third = third;
   });
+  if (problem_.forcing) find_changes_of_ends(time, velocities);
+}
+
+void ManyTrains::find_changes_of_ends(double time, Points& velocities) const {
+  for (const double side : {-1.0, 1.0}) {
+    std::vector<std::size_t> ends;
+    for (std::size_t i = 0; i < now_.size(); ++i)
+      if (now_.is_end(i) && now_.x[i] * side > 0) ends.push_back(i);
+    if (ends.size() != 2) continue;
+    if (now_.r[ends[1]] < now_.r[ends[0]]) std::swap(ends[0], ends[1]);
+    const std::vector<double> edges{now_.r[ends[0]], now_.r[ends[1]]};
+    for (const std::size_t j : {0, 1})
+      velocities.r[ends[j]] = edges::source_of(edges, j, forces(side * Contour::far_away, time)).change;
+  }
+}
+
+/// Integrals over the domain by the two-point Gauss rule between the points of the curves.
+Work ManyTrains::power() const {
+  const double left = problem_.left, right = problem_.right;
+  std::vector<double> nodes{left, right};
+  for (const double x : now_.x)
+    if (x > left && x < right) nodes.push_back(x);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<double> x{-Contour::far_away / 2, left};
+  const double offset = (1 - 1 / std::sqrt(3)) / 2;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    x.push_back(std::lerp(nodes[i], nodes[i + 1], offset));
+    x.push_back(std::lerp(nodes[i], nodes[i + 1], 1 - offset));
+  }
+  x.push_back(right);
+  x.push_back(Contour::far_away / 2);
+  Work rate;
+  Sweep(now_).at(x, [&](std::size_t i, const std::vector<double>& edges) {
+    const edges::Means here = edges::means_of(edges);
+    if (i == 0) {
+      rate.slip_at_left = here.W;
+    } else if (i == 1) {
+      rate.through_ends += here.P;
+    } else if (i + 2 == x.size()) {
+      rate.through_ends -= here.P;
+    } else if (i + 1 == x.size()) {
+      rate.slip_at_right = here.W;
+    } else {
+      const double half = (nodes[i / 2] - nodes[i / 2 - 1]) / 2;
+      const edges::Forces f = forces(x[i], state_.time);
+      rate.dissipated += half * f.viscosity * here.squared_rate;
+      rate.supplied += half * f.load * here.W;
+    }
+  });
+  return rate;
+}
+
+/// Integrates the power over the last step by the trapezoidal rule.
+void ManyTrains::add_work(double length) {
+  const Work before = *power_, now = power();
+  for (double Work::*part :
+       {&Work::dissipated, &Work::supplied, &Work::through_ends, &Work::slip_at_left, &Work::slip_at_right})
+    state_.work.*part += length / 2 * (before.*part + now.*part);
+  power_ = now;
 }
 
 /// A thousandth of the time in which the fastest point crosses the domain.
 double ManyTrains::first_step() const {
   double fastest = 0;
-  for (const double v : speeds_) fastest = std::fmax(fastest, std::fabs(v));
+  for (const double v : velocities_.x) fastest = std::fmax(fastest, std::fabs(v));
   return 1e-3 * (problem_.right - problem_.left) / fastest;
 }
 
-double ManyTrains::expected_steps(double) const { return 200; }
+double ManyTrains::expected_steps(double duration) const { return std::fmax(200, viscosity_ * duration); }
 
 std::string ManyTrains::reason_of_short_steps() const {
-  const std::vector<double>& x = state_.x;
+  const std::vector<double>& v = velocities_.x;
   std::size_t fastest = 0;
-  for (std::size_t i = 0; i < speeds_.size(); ++i)
-    if (std::fabs(speeds_[i]) > std::fabs(speeds_[fastest])) fastest = i;
-  return "the edges of the trains change their speeds fast near x = " + digits(x[fastest]);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    if (std::fabs(v[i]) > std::fabs(v[fastest])) fastest = i;
+  return "the edges of the trains change their speeds fast near x = " + digits(state_.curves.x[fastest]);
 }
 
 /// A step of Bogacki and Shampine (1989, Appl. Math. Lett. 2:321), third order with an error estimate of second order.
-/// The tolerance is relative to the distance of the fastest point so far. We take the mean square over all points,
-/// because the speed at the end of a fold changes with the logarithm of the distance from it.
-StepAttempt ManyTrains::attempt(const std::vector<double>& before, double length) {
+/// The tolerance is relative to the distance of the fastest point so far, and to the range of rapidities. We take the
+/// mean square over all points, because the speed at the end of a fold changes with the logarithm of the distance from
+/// it.
+StepAttempt ManyTrains::attempt(const Points& before, double length) {
   constexpr double tighter = 0.5;  // than that of one train, which limits the error of each step by its cells
-  const std::size_t n = before.size();
-  stage_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) stage_[i] = before[i] + length / 2 * speeds_[i];
-  find_speeds(stage_, second_);
-  for (std::size_t i = 0; i < n; ++i) stage_[i] = before[i] + 3 * length / 4 * second_[i];
-  find_speeds(stage_, third_);
-  for (std::size_t i = 0; i < n; ++i)
-    state_.x[i] = before[i] + length * (2 * speeds_[i] + 3 * second_[i] + 4 * third_[i]) / 9;
-  find_speeds(state_.x, last_);
-  double squares = 0, fastest = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double off = length * (-5 * speeds_[i] + 6 * second_[i] + 8 * third_[i] - 9 * last_[i]) / 72;
-    squares += off * off;
-    fastest = std::fmax(fastest, std::fabs(speeds_[i]));
+  const auto combine = [n = before.x.size()](Points& to, const auto& value) {
+    to.x.resize(n);
+    to.r.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      to.x[i] = value(i, &Points::x);
+      to.r[i] = value(i, &Points::r);
+    }
+  };
+  using Part = std::vector<double> Points::*;
+  const double t = state_.time;
+  combine(stage_, [&](std::size_t i, Part p) { return (before.*p)[i] + length / 2 * (velocities_.*p)[i]; });
+  find_velocities(t + length / 2, stage_, second_);
+  combine(stage_, [&](std::size_t i, Part p) { return (before.*p)[i] + 3 * length / 4 * (second_.*p)[i]; });
+  find_velocities(t + 3 * length / 4, stage_, third_);
+  Points reached;
+  combine(reached, [&](std::size_t i, Part p) {
+    return (before.*p)[i] + length * (2 * (velocities_.*p)[i] + 3 * (second_.*p)[i] + 4 * (third_.*p)[i]) / 9;
+  });
+  find_velocities(t + length, reached, last_);
+  state_.curves.x = reached.x;
+  state_.curves.r = reached.r;
+  const auto [lowest, highest] = std::minmax_element(before.r.begin(), before.r.end());
+  double fastest = 0, squares = 0, squares_r = 0;
+  for (std::size_t i = 0; i < before.x.size(); ++i) {
+    const auto off = [&](Part p) {
+      return length * (-5 * (velocities_.*p)[i] + 6 * (second_.*p)[i] + 8 * (third_.*p)[i] - 9 * (last_.*p)[i]) / 72;
+    };
+    squares += off(&Points::x) * off(&Points::x);
+    squares_r += off(&Points::r) * off(&Points::r);
+    fastest = std::fmax(fastest, std::fabs(velocities_.x[i]));
   }
-  const double allowed = tighter * problem_.explicit_tolerance * fastest * (state_.time + length);
-  const double error = fastest > 0 ? std::sqrt(squares / static_cast<double>(n)) / allowed : 0;
+  const auto points = static_cast<double>(before.x.size());
+  const double tolerance = tighter * problem_.explicit_tolerance, allowed = tolerance * fastest * (t + length);
+  const double error = fastest > 0 ? std::hypot(std::sqrt(squares / points) / allowed,
+                                                std::sqrt(squares_r / points) / (tolerance * (*highest - *lowest)))
+                                   : 0;
   return {.succeeded = std::isfinite(error), .error = std::fmax(error, 1e-6)};
 }
 
 void ManyTrains::step(double target) {
-  if (speeds_.empty()) find_speeds(state_.x, speeds_);
-  const std::vector<double> before = state_.x;
+  if (velocities_.x.empty()) find_velocities(state_.time, points(), velocities_);
+  if (driven() && !power_) power_ = power();
+  const Points before = points();
   const double wanted = std::fmin(state_.step > 0 ? state_.step : first_step(), problem_.longest_step);
   const double remaining = target - state_.time, length = step_within(remaining, wanted);
   const StepTaken taken = take_step(
@@ -93,8 +198,15 @@ void ManyTrains::step(double target) {
   state_.time = taken.length == remaining ? target : state_.time + taken.length;
   state_.step = taken.next;
   state_.steps += 1;
-  std::swap(speeds_, last_);
-  if (remove_sawteeth()) find_speeds(state_.x, speeds_);
+  std::swap(velocities_, last_);
+  const bool smoothed = remove_sawteeth(), refined = driven() && refine();
+  if (smoothed || refined) find_velocities(state_.time, points(), velocities_);
+  constexpr double seen = 0.01;  // at the start of a fold, points overtake each other within their spacing
+  if (third_train_.extent > seen * (problem_.right - problem_.left))
+    throw NumericsError("t = " + digits(state_.time) + ": three trains are at x = " + digits(third_train_.x) +
+                        "; the effect of friction and load is known for up to two trains at one position. " +
+                        "slipfront chain follows every dislocation");
+  if (driven()) add_work(taken.length);
   state_.slip.add(state_.time, velocity_at_origin(now_), 0);
 }
 
@@ -115,11 +227,41 @@ bool ManyTrains::remove_sawteeth() {
     if (last == first) continue;
     found = true;
     for (std::size_t i = first;; i = c.next[i]) {
-      state_.x[i] = (c.x[c.previous[i]] + 2 * c.x[i] + c.x[c.next[i]]) / 4;
+      state_.curves.x[i] = (c.x[c.previous[i]] + 2 * c.x[i] + c.x[c.next[i]]) / 4;
       if (i == last) break;
     }
   }
   return found;
+}
+
+/// Friction draws curves out, and lets points run together elsewhere. We add points on the curves between those that
+/// are far apart, and remove those that are close to both neighbours.
+bool ManyTrains::refine() {
+  constexpr double far = 3, close = 0.1;  // in units of the range of rapidities over problem_.cells
+  constexpr std::size_t most = 4;         // times the points at the start
+  constexpr double of_x = 0.3;
+  Contour& c = state_.curves;
+  const auto [lowest, highest] = std::minmax_element(c.r.begin(), c.r.end());
+  const double range = *highest - *lowest, width = problem_.right - problem_.left, unit = 1.0 / problem_.cells;
+  const auto apart = [&](std::size_t a, std::size_t b) {
+    return std::hypot(of_x * (c.x[b] - c.x[a]) / width, (c.r[b] - c.r[a]) / range);
+  };
+  bool changed = false;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const bool kept = c.is_end(i) || c.corner[i] || i == c.front || i == c.tip;
+    if (kept || c.is_end(c.previous[i]) || c.is_end(c.next[i])) continue;
+    if (apart(c.previous[i], i) + apart(i, c.next[i]) > close * unit) continue;
+    c.remove(i--);
+    changed = true;
+  }
+  const std::size_t size = c.size();
+  for (std::size_t i = 0; i < size && c.size() < most * start_.size(); ++i) {
+    if (c.is_end(i) || c.is_end(c.next[i]) || apart(i, c.next[i]) < far * unit) continue;
+    c.add_behind(i);
+    changed = true;
+  }
+  if (changed) now_ = c;
+  return changed;
 }
 
 bool ManyTrains::advance_to(double target, const std::function<bool()>& after_step) {
@@ -133,8 +275,9 @@ bool ManyTrains::advance_to(double target, const std::function<bool()>& after_st
 void ManyTrains::archive(Archive& a) {
   a(state_);
   if (!a.reads()) return;
-  now_.x = state_.x;
-  speeds_.clear();
+  now_ = state_.curves;
+  velocities_ = {};
+  power_.reset();
 }
 
 std::optional<SlipTwice> ManyTrains::slip_twice() const { return slip_twice(Along(*this)); }

@@ -1,10 +1,12 @@
 #pragma once
 /// \file
-/// A pulse without friction, with as many trains at one position as overtake each other (docs/theory/9_trains.md 9.6).
-/// The curves of the edges move in the plane of x and rapidity r:
-///     dr / dt = 0,   dx / dt = v_j(all edges at x),   Eq. (9.2).
-/// A curve that folds over makes two trains out of one. Nothing breaks, so that there are no shocks. The ends of the
-/// domain are not seen: a train continues outside with the stress of the end, or there is none.
+/// A pulse with as many trains at one position as overtake each other (docs/theory/9_trains.md 9.6). The curves of the
+/// edges move in the plane of x and rapidity r:
+///     dx / dt = v_j(all edges at x),                Eq. (9.2)
+///     dr / dt = s_j(all edges at x, F, C).          Eq. (9.11)
+/// Viscous friction C and a load F change rapidities; their effect is known for up to two trains. A curve that folds
+/// over makes two trains out of one. Nothing breaks, so that there are no shocks. The ends of the domain are not seen:
+/// a train continues outside with the stress and the load of the end, or there is none.
 
 #include <optional>
 #include <string>
@@ -12,23 +14,36 @@
 
 #include "foundation/math/step_control.hpp"
 #include "pulse/contours/contour.hpp"
+#include "pulse/contours/edges.hpp"
 #include "pulse/motion.hpp"
 
 namespace slipfront::pulse {
 
 class Along;
 
+/// Positions and rapidities of all points, or their velocities.
+struct Points {
+  std::vector<double> x, r;
+};
+
+/// Work of friction, load and the ends of the domain since t = 0.
+struct Work {
+  double dissipated = 0, supplied = 0;         ///< energy, in the domain
+  double through_ends = 0;                     ///< energy that came in through the ends of the domain
+  double slip_at_left = 0, slip_at_right = 0;  ///< far outside the domain, where a load moves uniform trains
+};
+
 /// The part of a checkpoint that describes the motion of many trains at one time.
 struct ManyTrainsState {
   double time = 0, steps = 0;
-  double step = 0;             ///< length that the error of the last step recommends; 0 before the first one
-  std::vector<double> x = {};  ///< positions of the points
-  SlipRecord slip = {};        ///< at x = 0
+  double step = 0;  ///< length that the error of the last step recommends; 0 before the first one
+  Contour curves = {};
+  Work work = {};
+  SlipRecord slip = {};  ///< at x = 0
 
   void archive(Archive& a) {
     a.same(std::string("many trains"));
-    a(time, steps, step, slip);
-    a.fixed(x);
+    a(time, steps, step, curves, work, slip);
     a.require(steps >= 0 && steps < 9e15);
   }
 };
@@ -57,15 +72,26 @@ class ManyTrains : public Motion {
   /// The curves at t = 0 and now.
   const Contour& start() const { return start_; }
   const Contour& contour() const { return now_; }
+  /// Whether friction or a load acts.
+  bool driven() const { return viscosity_ != 0 || problem_.forcing; }
+  const Work& work() const { return state_.work; }
 
  private:
   std::optional<SlipTwice> slip_twice(const Along& along) const;
   void step(double target);
-  /// One attempt at a step of this length from these positions. It changes state_.x.
-  StepAttempt attempt(const std::vector<double>& before, double length);
-  /// The speeds of all points if they are at x.
-  void find_speeds(const std::vector<double>& x, std::vector<double>& speeds);
+  /// One attempt at a step of this length from these points. It changes the points of the state.
+  StepAttempt attempt(const Points& before, double length);
+  /// The velocities of all points, of x and of r, at one time.
+  void find_velocities(double time, const Points& points, Points& velocities);
+  edges::Forces forces(double x, double time) const;
+  /// Velocities of the curves' ends outside the domain.
+  void find_changes_of_ends(double time, Points& velocities) const;
+  /// Rates of change of the work now.
+  Work power() const;
+  void add_work(double length);
   bool remove_sawteeth();
+  bool refine();
+  Points points() const { return {state_.curves.x, state_.curves.r}; }
   double first_step() const;
 
   Problem problem_;
@@ -73,8 +99,13 @@ class ManyTrains : public Motion {
   Sweep sweep_{now_};
   ManyTrainsState state_;
   bool aimed_ = false;
-  std::vector<double> speeds_;  ///< at the present positions; empty: not known
-  std::vector<double> stage_, second_, third_, last_;
+  double viscosity_ = 0;
+  Points velocities_;  ///< those of the present points, empty if not known
+  struct {
+    double extent = 0, x = 0;
+  } third_train_;  ///< the last x at which friction or a load acts on three trains, and the size of that region
+  std::optional<Work> power_;  ///< rate of the work now, empty if not known
+  Points stage_, second_, third_, last_;
 };
 
 }  // namespace slipfront::pulse

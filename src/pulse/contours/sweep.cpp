@@ -45,21 +45,65 @@ double change_at(const std::vector<double>& f, std::size_t here, std::size_t ahe
   return 2 * (f[ahead] - f[here]) - (f[after] - f[here]) / 2;
 }
 
+/// A coordinate along a curve between a point and the next one, as a cubic function of the number of the point.
+Cubic behind(const Contour& c, const std::vector<double>& f, std::size_t a) {
+  const std::size_t b = c.next[a], before = c.previous[a], after = c.next[b];
+  return {f[a], f[b], change_at(f, a, b, before, c.corner[a], after, c.corner[b]),
+          -change_at(f, b, a, after, c.corner[b], before, c.corner[a])};
+}
+
 }  // namespace
 
-/// Along a curve, x and r are cubic functions of the number of the point. The rapidity stays in the range of both ends.
+void Contour::archive(Archive& a) {
+  a(x, r, previous, next, corner, front, tip);
+  for (const std::size_t each : {r.size(), previous.size(), next.size(), corner.size()}) a.require(each == x.size());
+  const auto exists = [this](std::size_t point) { return point == nothing || point < x.size(); };
+  a.require(exists(front) && exists(tip) && std::all_of(previous.begin(), previous.end(), exists) &&
+            std::all_of(next.begin(), next.end(), exists));
+}
+
+void Contour::add_behind(std::size_t a) {
+  const std::size_t b = next[a], made = size();
+  const double at_x = behind(*this, x, a).at(0.5), at_r = behind(*this, r, a).at(0.5);
+  x.push_back(at_x);
+  r.push_back(at_r);
+  corner.push_back(false);
+  previous.push_back(a);
+  next.push_back(b);
+  next[a] = previous[b] = made;
+}
+
+void Contour::remove(std::size_t point) {
+  next[previous[point]] = next[point];
+  previous[next[point]] = previous[point];
+  const std::size_t last = size() - 1;
+  if (point != last) {
+    x[point] = x[last];
+    r[point] = r[last];
+    corner[point] = corner[last];
+    previous[point] = previous[last];
+    next[point] = next[last];
+    if (previous[point] != nothing) next[previous[point]] = point;
+    if (next[point] != nothing) previous[next[point]] = point;
+    for (std::size_t* named : {&front, &tip})
+      if (*named == last) *named = point;
+  }
+  x.pop_back();
+  r.pop_back();
+  corner.pop_back();
+  previous.pop_back();
+  next.pop_back();
+}
+
+/// The rapidity stays in the range of both ends.
 double Sweep::rapidity(std::size_t a, double place) const {
   const Contour& c = contour_;
-  const std::size_t b = c.next[a], before = c.previous[a], after = c.next[b];
+  const std::size_t b = c.next[a];
   if (c.r[a] == c.r[b]) return c.r[a];
-  const auto cubic = [&](const std::vector<double>& f) {
-    return Cubic{f[a], f[b], change_at(f, a, b, before, c.corner[a], after, c.corner[b]),
-                 -change_at(f, b, a, after, c.corner[b], before, c.corner[a])};
-  };
   if (c.x[a] == c.x[b]) return (c.r[a] + c.r[b]) / 2;
-  const double s = solve_for(cubic(c.x), place);
+  const double s = solve_for(behind(c, c.x, a), place);
   const auto [least, most] = std::minmax(c.r[a], c.r[b]);
-  return std::clamp(cubic(c.r).at(s), least, most);
+  return std::clamp(behind(c, c.r, a).at(s), least, most);
 }
 
 /// Points at the same x are in the order in which they will move: the faster, the farther to the right.

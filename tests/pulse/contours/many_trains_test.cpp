@@ -239,4 +239,39 @@ TEST(Contours, AreCrossedInPairs) {
   EXPECT_EQ(most, 6);  // two pulses have met: three trains
 }
 
+/// Friction and a load, before dislocations overtake each other: the solver of one train is another method.
+TEST(ManyTrains, FollowFrictionAndLoadAsOneTrainDoes) {
+  Problem p = smooth_problem(falling, 4, 400);
+  p.friction = friction::viscous(0.2);
+  p.forcing = [](double x, double t) { return 0.05 * std::exp(-x * x) * std::cos(t) + 0.01; };
+  const output::Snapshot many = end_of_motion(p, 1);
+  p.many_trains = false;
+  pulse::Run run(p, schedule_to(p, 1));
+  run.go();
+  const output::Snapshot& one = run.snapshots().back();
+  EXPECT_NEAR(many.slip_at_origin, one.slip_at_origin, 2e-4 * one.slip_at_origin);
+  EXPECT_NEAR(many.slip_velocity_at_origin, one.slip_velocity_at_origin, 2e-4 * one.slip_velocity_at_origin);
+  EXPECT_NEAR(many.energy.dissipated, one.energy.dissipated, 5e-3 * one.energy.dissipated);
+  EXPECT_NEAR(many.energy.supplied, one.energy.supplied, 5e-3 * one.energy.supplied);
+  for (std::size_t i = 0; i < one.profile.slip.size(); ++i)
+    EXPECT_NEAR(many.profile.slip[i], one.profile.slip[i], 5e-4 * one.slip_at_origin) << i;
+}
+
+/// A chain of scale 5000 has the slip 0.21244 and W = 0.05746 at x = 0, one train with shocks 0.21631 and 0.05875.
+TEST(ManyTrains, SlowDownUnderViscousFrictionAsTheChainDoes) {
+  Problem p = smooth_problem(falling, 5, 200);
+  p.friction = friction::viscous(0.2);
+  const output::Snapshot end = end_of_motion(p, 4);
+  EXPECT_NEAR(end.slip_at_origin, 0.21244, 1e-3);
+  EXPECT_NEAR(end.slip_velocity_at_origin, 0.05746, 1e-4);
+  EXPECT_EQ(*std::max_element(end.profile.trains.begin(), end.profile.trains.end()), 2);
+  EXPECT_LT(std::fabs(end.energy.residual), 0.03 * end.energy.kinetic);
+}
+
+TEST(ManyTrains, EndWhereFrictionActsOnThreeTrains) {
+  Problem p = smooth_problem([](double x) { return 1.1 - 0.6 * std::exp(-x * x / 0.16); }, 4, 200);
+  p.friction = friction::viscous(0.05);
+  EXPECT_THROW(end_of_motion(p, 3), NumericsError);
+}
+
 }  // namespace

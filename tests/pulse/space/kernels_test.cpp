@@ -31,7 +31,7 @@ TEST(Kernels, StopTrainsThatRunIntoEachOther) {
     const double closing = std::asinh(left / (8 * contact * mass)) - std::asinh(right / (8 * contact * mass));
     const double sinh = std::sinh(psi + std::fmax(closing, 0.0) / 2);
     EXPECT_NEAR(pressure, 2 * sinh * sinh, 1e-13 * pressure) << left << " " << right;
-    // Mirrored, they run into each other in the same way; exchanged, they move apart.
+    // Their mirror images run into each other in the same way. If we exchange them, they move apart.
     const double mirrored[] = {-right, -left}, apart[] = {right, left};
     double other = 0;
     pulse::masses_and_pressures({1, &spacing, &phi, &psi, &EK, &contact, mirrored, &mass, &other});
