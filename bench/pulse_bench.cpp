@@ -7,8 +7,8 @@
 
 #include "pulse/solver.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
-#include "slipfront/scenario/scenario.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "slipfront/scenario/scenario.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

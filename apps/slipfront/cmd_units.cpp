@@ -10,8 +10,8 @@
 #include "long_run.hpp"
 #include "run/run.hpp"
 #include "slipfront/scenario/keys.hpp"
-#include "slipfront/scenario/quantities.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "slipfront/scenario/quantities.hpp"
 #include "terminal_table.hpp"
 
 namespace {

@@ -98,11 +98,11 @@ void RunChecks::check_barrier(Findings& found) const {
   if (s.model != Model::sine_gordon || s.loading.acts() || !s.substrate || !(pushed > 1e-9) ||
       force >= enough * barrier_force(spacing))
     return;
-  found.sentences.push_back(
-      "chain: the grid holds slow dislocations. The largest force on one, " + digits(pushed, 2) + ", is " +
-      digits(force / barrier_force(spacing), 2) + " times the barrier of the grid at spacing " + digits(spacing, 3) +
-      "; " + digits(enough) +
-      " are needed. Try a spacing of " + digits(spacing_with_barrier_below(force / enough, spacing)));
+  found.sentences.push_back("chain: the grid holds slow dislocations. The largest force on one, " + digits(pushed, 2) +
+                            ", is " + digits(force / barrier_force(spacing), 2) +
+                            " times the barrier of the grid at spacing " + digits(spacing, 3) + "; " + digits(enough) +
+                            " are needed. Try a spacing of " +
+                            digits(spacing_with_barrier_below(force / enough, spacing)));
 }
 
 /// Compares the slip at x = 0, u minus u at t = 0, with the integral of the velocity there. The run sampled this
@@ -151,8 +151,7 @@ void RunChecks::check_dislocations(Findings& found) const {
   if (!(step / 4 > 0.01 * slip && slip > 1e-3 * step)) return;
   found.sentences.push_back("chain: " + digits(static_cast<double>(observer_.dislocations_at_start())) +
                             " dislocations at scale " + digits(scale) + ", of which " + digits(slip / step) +
-                            " passed x = 0; each adds a slip of " + digits(step) +
-                            ". For an error of 1 %, try scale " +
+                            " passed x = 0; each adds a slip of " + digits(step) + ". For an error of 1 %, try scale " +
                             digits(std::pow(10, std::ceil(2 * std::log10(25 * turn / slip)) / 2)));
 }
 

@@ -24,7 +24,8 @@ namespace slipfront {
 template <class T>
 inline constexpr bool is_doubles = []<std::size_t... i>(std::index_sequence<i...>) {
   return requires { T{(static_cast<void>(i), double{})...}; };
-}(std::make_index_sequence<sizeof(T) / sizeof(double)>{});
+}
+(std::make_index_sequence<sizeof(T) / sizeof(double)>{});
 
 /// Writes members to bytes, or reads them from bytes: numbers in a row, little endian as every machine that this runs
 /// on. Vectors and texts follow their sizes.
@@ -121,9 +122,9 @@ class Archive {
   };
   /// Whether the bytes of a value are its members.
   template <class T>
-  static constexpr bool is_plain =
-      std::is_arithmetic_v<T> ||
-      (std::is_aggregate_v<T> && std::is_trivially_copyable_v<T> && !has_archive<T> && is_doubles<T>);
+  static constexpr bool is_plain = std::is_arithmetic_v<T> ||
+                                   (std::is_aggregate_v<T> && std::is_trivially_copyable_v<T> && !has_archive<T> &&
+                                    is_doubles<T>);
 
   template <class T>
   void visit(T& value) {

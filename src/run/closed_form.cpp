@@ -3,9 +3,9 @@
 
 #include "foundation/math/constants.hpp"
 #include "foundation/math/roots.hpp"
+#include "run/compare.hpp"
 #include "slipfront/output/quantities.hpp"
 #include "slipfront/rupture/riemann_trains.hpp"
-#include "run/compare.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::run {

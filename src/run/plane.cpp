@@ -80,7 +80,8 @@ PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const Opti
     record::write_plane(path, metadata, plan.grid, *result.run, state);
   };
   if (!carry_out(result, options, plan.disk, write)) return result;
-  if (const double scale = scenario::scale_of_lines(s); plan.lines == scenario::Lines::direct && !s.chain.scale && scale > 1)
+  if (const double scale = scenario::scale_of_lines(s);
+      plan.lines == scenario::Lines::direct && !s.chain.scale && scale > 1)
     add_warnings({"chain.scale is not given. At scale " + digits(scale) +
                   " the largest initial slip has 20 dislocation lines; a larger one brings results closer to those of "
                   "many lines"},

@@ -220,8 +220,9 @@ std::vector<Key> pulse_keys() {
       word_key(table, "left", ends, "continued", "condition at the left end"),
       word_key(table, "right", ends, "continued", "condition at the right end"),
       other_key(table, "periodic", KeyType::truth, "false", "a ring, which is stressed at both ends of the domain"),
-      word_key(table, "trains", {"one", "many"}, "one",
-               "trains at one position: one, with shocks, or as many as overtake each other (viscous friction or none)"),
+      word_key(
+          table, "trains", {"one", "many"}, "one",
+          "trains at one position: one, with shocks, or as many as overtake each other (viscous friction or none)"),
   };
 }
 

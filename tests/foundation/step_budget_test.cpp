@@ -9,8 +9,8 @@
 
 #include "pulse/solver.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/scenario/scenario.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "slipfront/scenario/scenario.hpp"
 
 namespace {
 

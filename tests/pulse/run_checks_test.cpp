@@ -8,8 +8,8 @@
 
 #include "slipfront/friction/law.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/scenario/scenario.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "slipfront/scenario/scenario.hpp"
 
 namespace {
 

@@ -14,8 +14,8 @@
 #include "record/netcdf/table_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/scenario/scenario.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "slipfront/scenario/scenario.hpp"
 
 using namespace slipfront;
 

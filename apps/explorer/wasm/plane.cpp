@@ -1,8 +1,6 @@
 /// \file
 /// The functions of panel "Fault plane": a rupture on a plane, by the averages or line by line.
 
-#include "slipfront/scenario/problem.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -16,6 +14,7 @@
 #include "slipfront/plane/direct.hpp"
 #include "slipfront/plane/quantities.hpp"
 #include "slipfront/plane/run.hpp"
+#include "slipfront/scenario/problem.hpp"
 
 namespace slipfront::explorer {
 namespace {
