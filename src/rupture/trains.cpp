@@ -236,11 +236,11 @@ std::vector<double> edge_sources(const FilledBands& bands, double load, double v
                       .value = digits(static_cast<double>(bands.trains())),
                       .problem = "the effect of friction and load on three or more trains is not known",
                       .allowed = "1 or 2"});
-  constexpr double narrowest = 1e-7;
+  constexpr double least_share = 1e-7;
   const double total = bands.widths[0] + bands.widths[1] + bands.widths[2];
   if (total == 0) return std::vector<double>(4, sources_of_train({bands.centre, 0}, load, viscosity)[0]);
   FilledBands open = bands;
-  for (double& width : open.widths) width = std::fmax(width, narrowest * total);
+  for (double& width : open.widths) width = std::fmax(width, least_share * total);
   return sources_of_two(open, load, viscosity);
 }
 

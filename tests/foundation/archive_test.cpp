@@ -64,7 +64,7 @@ TEST(Archive, RefusesSizesThatDoNotFit) {
   std::vector<std::vector<double>> rows{{1, 2}};
   std::string bytes;
   Archive::to(bytes)(rows);
-  for (const std::size_t at : {8, 16}) {
+  for (const std::size_t at : {std::size_t{8}, std::size_t{16}}) {
     std::string wrong = bytes;
     wrong[at + 6] = 1;
     EXPECT_THROW(Archive::from(wrong)(rows), InputError) << at;

@@ -67,7 +67,7 @@ void ManyTrains::find_changes_of_ends(double time, Points& velocities) const {
     if (ends.size() != 2) continue;
     if (now_.r[ends[1]] < now_.r[ends[0]]) std::swap(ends[0], ends[1]);
     const std::vector<double> edges{now_.r[ends[0]], now_.r[ends[1]]};
-    for (const std::size_t j : {0, 1})
+    for (std::size_t j = 0; j < 2; ++j)
       velocities.r[ends[j]] = edges::source_of(edges, j, forces(side * Contour::far_away, time)).change;
   }
 }
