@@ -1,7 +1,6 @@
 #include "run/catalogue.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -29,7 +28,7 @@ void add_once(std::vector<std::string>& all, const std::vector<std::string>& mor
 }
 
 /// Why --strict refuses a text: its first bad row, or a column that looks like a quantity. Nothing if it does not.
-std::optional<Complaint> why_refused(const std::string& file, const std::vector<Entry>& entries,
+std::optional<Complaint> why_refused(const std::string& file, std::span<const Entry> entries,
                                      const catalogue::TableNotes& notes, const medium::Defaults& defaults) {
   EvaluationOptions closed_forms;
   closed_forms.sampling.samples = 0;
@@ -72,14 +71,15 @@ Entries read_all(const CatalogueScenario& scenario, const medium::Defaults& defa
       read.all.push_back(bad_entry(t.name, Complaint{.problem = t.error}));
       continue;
     }
-    std::vector<Entry> entries;
+    const std::size_t first = read.all.size();
     catalogue::TableNotes notes = catalogue::read_events(
-        t.text, t.name, [&](Entry&& entry) { entries.push_back(std::move(entry)); }, scenario.table);
+        t.text, t.name, [&](Entry&& entry) { read.all.push_back(std::move(entry)); }, scenario.table);
+    const auto entries = std::span<const Entry>(read.all).subspan(first);
     if (auto refused = scenario.strict ? why_refused(t.name, entries, notes, defaults) : std::nullopt) {
+      read.all.resize(first);
       read.all.push_back(bad_entry(t.name, std::move(*refused)));
       continue;
     }
-    std::move(entries.begin(), entries.end(), std::back_inserter(read.all));
     add_once(read.columns.ignored, notes.ignored);
     add_once(read.columns.ignored_quantities, notes.ignored_quantities);
     if (!notes.ignored.empty() || !notes.notes.empty()) read.columns.files.push_back({t.name, std::move(notes)});
