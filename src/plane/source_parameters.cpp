@@ -63,7 +63,7 @@ void for_each_interval(const std::vector<SeriesRow>& series, const Each& each) {
 }  // namespace
 
 int Problem::rows_of_cells(int along_x) const {
-  constexpr double fewest = 8, most = 10'000;
+  constexpr double fewest = 4, most = 10'000;
   return static_cast<int>(std::clamp(std::round((top - bottom) / (right - left) * along_x), fewest, most));
 }
 

@@ -26,7 +26,8 @@ void check(const Problem& p) {
 
 Cells cells_of(const Problem& p, int cells) {
   const double width = p.right - p.left, height = p.top - p.bottom;
-  const double rows = p.rows_of_cells(cells);
+  constexpr int fewest = 8;
+  const double rows = std::max(fewest, p.rows_of_cells(cells));
   Cells all;
   all.nx = static_cast<std::size_t>(cells);
   all.ny = static_cast<std::size_t>(rows);
