@@ -147,6 +147,19 @@ void require_known_motion(const Scenario& s, const pulse::Problem& p) {
 
 }  // namespace
 
+namespace {
+
+void require_width(const Scenario& s, double left, double right) {
+  if (left < right) return;
+  throw InputError({.file = s.file,
+                    .key = s.domain.left ? "domain.left" : "domain.right",
+                    .value = digits(s.domain.left ? left : right),
+                    .problem = "out of range",
+                    .allowed = s.domain.left ? "< " + digits(right) : "> " + digits(left)});
+}
+
+}  // namespace
+
 pulse::Problem stated_problem(const Scenario& s) {
   require_line(s);
   pulse::Problem p{.stress = s.stress,
@@ -175,12 +188,7 @@ pulse::Problem stated_problem(const Scenario& s) {
          .allowed = "[domain] left = ..., right = ..."});
   p.left = s.domain.left.value_or(-reach.left);
   p.right = s.domain.right.value_or(reach.right);
-  if (!(p.left < p.right))
-    throw InputError({.file = s.file,
-                      .key = s.domain.left ? "domain.left" : "domain.right",
-                      .value = digits(s.domain.left ? p.left : p.right),
-                      .problem = "out of range",
-                      .allowed = s.domain.left ? "< " + digits(p.right) : "> " + digits(p.left)});
+  require_width(s, p.left, p.right);
   p.left_end = s.pulse.left;
   p.right_end = s.pulse.right;
   p.periodic = s.pulse.periodic;

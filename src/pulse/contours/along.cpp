@@ -54,6 +54,22 @@ void Along::find_nodes(const std::vector<double>& x_edges) {
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }
 
+namespace {
+
+/// The energies that have come and gone, 0 unless friction or a load acts.
+output::Energy energy_of(const Work& work) {
+  return {.elastic = 0,
+          .kinetic = 0,
+          .dissipated = work.dissipated,
+          .supplied = work.supplied,
+          .through_ends = work.through_ends,
+          .shocks = none,
+          .residual = work.supplied - work.dissipated + work.through_ends,
+          .phonons = none};
+}
+
+}  // namespace
+
 /// Two-point Gauss rule between the nodes.
 void Along::integrate() {
   const std::size_t pieces = nodes_.size() - 1;
@@ -72,15 +88,7 @@ void Along::integrate() {
     means_[i] = now[3 * i];
     if (trains_.time() == 0) means_[i].W = 0;  // at rest, to rounding of the interpolated edges
   }
-  const Work& work = trains_.work();  // 0 unless friction or a load acts
-  energy_ = {.elastic = 0,
-             .kinetic = 0,
-             .dissipated = work.dissipated,
-             .supplied = work.supplied,
-             .through_ends = work.through_ends,
-             .shocks = none,
-             .residual = work.supplied - work.dissipated + work.through_ends,
-             .phonons = none};
+  energy_ = energy_of(trains_.work());
   stress_.assign(nodes_.size(), 0.0);
   lost_.assign(nodes_.size(), 0.0);
   std::vector<double> changed(nodes_.size());

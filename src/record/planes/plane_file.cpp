@@ -37,10 +37,28 @@ int opaque(Writer& file, const char* name, const char* long_name, std::size_t si
 std::vector<double> PlaneGrid::x() const { return centres(left, right, nx); }
 std::vector<double> PlaneGrid::y() const { return centres(bottom, top, ny); }
 
+namespace {
+
+void add_series(std::vector<Array>& all, const plane::Run& run) {
+  for (const plane::SeriesNumber& number : plane::series_numbers())
+    all.push_back({number.about,
+                   {{plane::series_numbers().front().about.name, run.series().size()}},
+                   [&run, get = number.get] {
+                     std::vector<double> values;
+                     values.reserve(run.series().size());
+                     for (const plane::SeriesRow& row : run.series()) values.push_back(get(row));
+                     return values;
+                   },
+                   {}});
+}
+
+}  // namespace
+
 std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid) {
   std::vector<Array> all;
   const std::vector<plane::Field>& snapshots = run.snapshots();
   std::vector<double> times;
+  times.reserve(snapshots.size());
   for (const plane::Field& snapshot : snapshots) times.push_back(snapshot.time);
   all.push_back(coordinate(plane::time_axis, times));
   all.push_back(coordinate(plane::y_axis, grid.y(), "Y"));
@@ -60,15 +78,7 @@ std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid) {
   for (const plane::MapArray& map : plane::map_arrays())
     all.push_back(
         {description_of(map, run.schedule()), cells, [maps, member = map.values] { return *maps.*member; }, {}});
-  for (const plane::SeriesNumber& number : plane::series_numbers())
-    all.push_back({number.about,
-                   {{plane::series_numbers().front().about.name, run.series().size()}},
-                   [&run, get = number.get] {
-                     std::vector<double> values;
-                     for (const plane::SeriesRow& row : run.series()) values.push_back(get(row));
-                     return values;
-                   },
-                   {}});
+  add_series(all, run);
   const std::vector<double> frequencies = plane::spectrum_frequencies(run.series());
   all.push_back(coordinate(plane::frequency_axis, frequencies));
   all.push_back({plane::moment_rate_spectrum,

@@ -46,6 +46,7 @@ void add_events(std::vector<Array>& all, const PulseMetadata& metadata) {
                    {{"event", events.size()}},
                    [&events, value = column.value] {
                      std::vector<double> values;
+                     values.reserve(events.size());
                      for (const output::SlipEvent& event : events) values.push_back(event.*value);
                      return values;
                    },
@@ -68,13 +69,15 @@ void add_events(std::vector<Array>& all, const PulseMetadata& metadata) {
 }  // namespace
 
 Array coordinate(const Description& about, std::vector<double> values, std::string_view axis) {
-  Array array{about, {{about.name, values.size()}}, [values] { return values; }, {}};
+  Array array{about, {{about.name, values.size()}}, {}, {}};
+  array.values = [kept = std::move(values)] { return kept; };
   if (!axis.empty()) array.attributes.emplace_back("axis", axis);
   return array;
 }
 
 std::vector<double> times_of(const std::vector<Snapshot>& snapshots) {
   std::vector<double> times;
+  times.reserve(snapshots.size());
   for (const Snapshot& snapshot : snapshots) times.push_back(snapshot.time);
   return times;
 }
