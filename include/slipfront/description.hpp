@@ -4,6 +4,7 @@
 /// JSON, NetCDF, SI units, errors, Python, plots and the explorer read it.
 
 #include <string_view>
+#include <vector>
 
 namespace slipfront {
 
@@ -31,6 +32,13 @@ struct Description {
   std::string_view reason = {};       ///< why a value may be absent (NaN); empty if it never is
   ErrorRule error = ErrorRule::unknown;
   std::string_view si_unit = {};  ///< unit of a number that has one; empty if it is dimensionless
+};
+
+/// An array that is a member of a struct.
+template <class Owner>
+struct MemberArray {
+  Description about;
+  std::vector<double> Owner::*values;
 };
 
 }  // namespace slipfront

@@ -33,7 +33,7 @@ constexpr SlipEventColumn columns[] = {
     {{"event_complete", "1, or 0 if the run ended within the event", "", "Eq. 1"}, &SlipEvent::complete},
 };
 
-constexpr FrontColumn of_fronts[] = {
+constexpr MemberArray<FrontRecord> of_fronts[] = {
     {{"event_arrival", "time at which the slip velocity first exceeds the threshold in an event", "b / (c A)", "Eq. 1",
       "the slip velocity does not exceed it"},
      &FrontRecord::arrival},
@@ -70,7 +70,7 @@ EventSeries series_of(const std::vector<SlipEvent>& events) {
 const Description front_position = {"position", "position at which the arrival of slip events is recorded", "b / A",
                                     "Eq. 1"};
 
-std::span<const FrontColumn> front_columns() { return of_fronts; }
+std::span<const MemberArray<FrontRecord>> front_columns() { return of_fronts; }
 
 std::span<const SlipEventColumn> slip_event_columns() { return columns; }
 

@@ -16,19 +16,19 @@ constexpr std::string_view on_a_plane = "Eq. 7, on a plane", energy = "mu b^3 / 
 
 constexpr std::string_view not_ruptured = "the cell has not ruptured";
 
-constexpr FieldArray of_fields[] = {
+constexpr MemberArray<Field> of_fields[] = {
     {{"slip", "slip since time 0, mean over the cell", "b / (2 pi)", "Eq. 4"}, &Field::slip},
     {{"slip_velocity", "slip velocity, mean over the cell", "c A / pi", "Eq. 4"}, &Field::velocity},
 };
 
-constexpr LineArray of_lines[] = {
+constexpr MemberArray<LinePoints> of_lines[] = {
     {{"line_time", "time of a point of a dislocation line", "b / (c A)", "Eq. 3"}, &LinePoints::time},
     {{"line_number", "number n of the dislocation line: u = (2 n - 1) pi", "", "Eq. 2"}, &LinePoints::number},
     {{"line_x", "x of a point of a dislocation line; NaN after each line", "b / A", "Eq. 3"}, &LinePoints::x},
     {{"line_y", "y of a point of a dislocation line; NaN after each line", "b / A", "Eq. 3"}, &LinePoints::y},
 };
 
-constexpr MapArray of_maps[] = {
+constexpr MemberArray<Maps> of_maps[] = {
     {{"rupture_time", "time at which the cell ruptures", "b / (c A)", on_a_plane, not_ruptured}, &Maps::rupture_time},
     {{"rupture_velocity", "velocity of the rupture front, 1 / size of the gradient of the rupture time", "c",
       on_a_plane, "the cell or a neighbour has not ruptured, or all rupture at once"},
@@ -120,7 +120,6 @@ constexpr output::Quantity<Report> of_run[] = {
 
 }  // namespace
 
-const Description time_axis = {"time", "time", "b / (c A)", "Eq. 3"};
 const Description frequency_axis = {"frequency", "frequency of the spectrum", "c A / b", on_a_plane};
 const Description moment_rate_spectrum = {"moment_rate_spectrum", "amplitude spectrum of the moment rate",
                                           "mu b^3 / (2 pi A^2)", on_a_plane};
@@ -144,13 +143,13 @@ LinePoints line_points(const std::vector<Field>& snapshots) {
   return all;
 }
 
-std::span<const LineArray> line_arrays() { return of_lines; }
-std::span<const FieldArray> field_arrays() { return of_fields; }
-std::span<const MapArray> map_arrays() { return of_maps; }
+std::span<const MemberArray<LinePoints>> line_arrays() { return of_lines; }
+std::span<const MemberArray<Field>> field_arrays() { return of_fields; }
+std::span<const MemberArray<Maps>> map_arrays() { return of_maps; }
 std::span<const SeriesNumber> series_numbers() { return of_series; }
 std::span<const output::Quantity<Report>> quantities() { return of_run; }
 
-Description description_of(const MapArray& map, const Schedule& schedule) {
+Description description_of(const MemberArray<Maps>& map, const Schedule& schedule) {
   Description about = map.about;
   if (map.values == &Maps::rupture_time && !schedule.rupture_rule.empty()) about.long_name = schedule.rupture_rule;
   return about;

@@ -161,6 +161,7 @@ BandAverages averages(const FilledBands& bands) {
     result.trains.push_back({c * band.dp + s * band.dw, c * band.dw + s * band.dp, c * I + s * J, c * J + s * I});
     result.k += result.trains.back().k;
     result.W += result.trains.back().omega;
+    result.squared_rate += result.trains.back().omega * result.trains.back().I;
     P += 4 / pi * band.sinh_dp;
     H += 4 / pi * band.cosh_dp;
     Q += 4 / pi * band.sinh_dw;
@@ -218,9 +219,7 @@ std::vector<double> sources_of_two(const FilledBands& bands, double load, double
     for (const double value : column) largest[j] = std::fmax(largest[j], std::fabs(value));
     for (std::size_t i = 0; i < n; ++i) matrix[i * n + j] = column[i] / largest[j];
   }
-  double squared_rate = 0;  // <u_t^2>
-  for (const TrainShare& train : now.trains) squared_rate += train.omega * train.I;
-  change = {0, 0, load * now.k - viscosity * now.P, load * now.W - viscosity * squared_rate};
+  change = {0, 0, load * now.k - viscosity * now.P, load * now.W - viscosity * now.squared_rate};
   solve_linear(std::move(matrix), {&change});
   for (std::size_t j = 0; j < n; ++j) change[j] /= largest[j];
   return change;

@@ -145,10 +145,6 @@ void require_known_motion(const Scenario& s, const pulse::Problem& p) {
                       .allowed = "trains = \"one\", or slipfront chain"});
 }
 
-}  // namespace
-
-namespace {
-
 void require_width(const Scenario& s, double left, double right) {
   if (left < right) return;
   throw InputError({.file = s.file,

@@ -45,6 +45,7 @@ struct Quantity {
 };
 
 /// Descriptions that several solvers share.
+inline constexpr Description time_axis = {"time", "time", "b / (c A)", "Eq. 3"};
 inline constexpr Description end_time = {"time", "end of the run", "b / (c A)", "Eq. 3"};
 inline constexpr Description step_count = {"steps", "number of time steps", "", ""};
 inline constexpr Description wall_time = {"wall_seconds", "seconds of the whole command", "", ""};

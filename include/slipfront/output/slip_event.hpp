@@ -43,12 +43,8 @@ struct FrontRecords {
   std::vector<FrontRecord> events;
 };
 
-/// A member of FrontRecord, with its description. `about.name` is its name in files.
-struct FrontColumn {
-  Description about;
-  std::vector<double> FrontRecord::*values;
-};
-std::span<const FrontColumn> front_columns();
+/// The members of FrontRecord. `about.name` is the name in files.
+std::span<const MemberArray<FrontRecord>> front_columns();
 extern const Description front_position;  ///< describes FrontRecords::x
 
 /// A member of SlipEvent, with its description. `about.name` is its name in files.

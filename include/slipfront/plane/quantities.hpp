@@ -12,24 +12,16 @@
 
 namespace slipfront::plane {
 
-extern const Description time_axis, x_axis, y_axis, frequency_axis, moment_rate_spectrum;
+extern const Description x_axis, y_axis, frequency_axis, moment_rate_spectrum;
 
-/// An array over time, y and x.
-struct FieldArray {
-  Description about;
-  std::vector<double> Field::*values;
-};
-std::span<const FieldArray> field_arrays();
+/// Arrays over time, y and x.
+std::span<const MemberArray<Field>> field_arrays();
 
-/// An array over y and x.
-struct MapArray {
-  Description about;
-  std::vector<double> Maps::*values;
-};
-std::span<const MapArray> map_arrays();
+/// Arrays over y and x.
+std::span<const MemberArray<Maps>> map_arrays();
 /// The description of a map of a run. It contains the rule by which cells rupture in this run, and must not outlive the
 /// `schedule`.
-Description description_of(const MapArray& map, const Schedule& schedule);
+Description description_of(const MemberArray<Maps>& map, const Schedule& schedule);
 
 /// The points of all dislocation lines of all snapshots. After each line follows a point whose x and y are NaN.
 struct LinePoints {
@@ -39,12 +31,8 @@ struct LinePoints {
 };
 LinePoints line_points(const std::vector<Field>& snapshots);
 
-/// An array over the points of lines.
-struct LineArray {
-  Description about;
-  std::vector<double> LinePoints::*values;
-};
-std::span<const LineArray> line_arrays();
+/// Arrays over the points of lines.
+std::span<const MemberArray<LinePoints>> line_arrays();
 
 /// A number over the times of the series. Where it has an error, its value at the end is also a number of the run.
 struct SeriesNumber {

@@ -56,6 +56,7 @@ struct BandAverages {
   double P;                        ///< momentum density <sigma w>, also the energy flux
   double H;                        ///< energy density
   double Q;                        ///< momentum flux
+  double squared_rate;             ///< <u_t^2>, the sum of all omega I
 };
 
 /// The averages of N trains (docs/theory/9_trains.md 9.2), for widths from 1e-303 to 5. The relative error is 1e-12 of

@@ -26,7 +26,7 @@ struct Moment {
   EventLog log;
   FrontLog fronts;
 
-  /// (all, if `a` writes)
+  /// Visits all members but a2. If `a` writes, all ranks have to call this.
   void archive(Archive& a, const OwnBlocks& own, const Ranks& ranks) {
     a(time, steps, last_step, earlier_step, next_step, window_start);
     for (const double number : {time, last_step, earlier_step, next_step, window_start})

@@ -29,6 +29,18 @@ double energy_per_density(double k) {
   return (train::averages(at_rest).H + modulation::pressure(at_rest.psi)) / k;
 }
 
+/// The energies that have come and gone, 0 unless friction or a load acts.
+output::Energy energy_of(const Work& work) {
+  return {.elastic = 0,
+          .kinetic = 0,
+          .dissipated = work.dissipated,
+          .supplied = work.supplied,
+          .through_ends = work.through_ends,
+          .shocks = none,
+          .residual = work.supplied - work.dissipated + work.through_ends,
+          .phonons = none};
+}
+
 std::vector<edges::Means> means_at(const Contour& contour, const std::vector<double>& x) {
   std::vector<edges::Means> means(x.size());
   Sweep(contour).at(x, [&](std::size_t i, const std::vector<double>& edges) { means[i] = edges::means_of(edges); });
@@ -54,32 +66,15 @@ void Along::find_nodes(const std::vector<double>& x_edges) {
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }
 
-namespace {
-
-/// The energies that have come and gone, 0 unless friction or a load acts.
-output::Energy energy_of(const Work& work) {
-  return {.elastic = 0,
-          .kinetic = 0,
-          .dissipated = work.dissipated,
-          .supplied = work.supplied,
-          .through_ends = work.through_ends,
-          .shocks = none,
-          .residual = work.supplied - work.dissipated + work.through_ends,
-          .phonons = none};
-}
-
-}  // namespace
-
 /// Two-point Gauss rule between the nodes.
 void Along::integrate() {
   const std::size_t pieces = nodes_.size() - 1;
   std::vector<double> x(3 * pieces + 1), inside(2 * pieces);  // nodes and Gauss points; Gauss points only
-  const double offset = (1 - 1 / std::sqrt(3)) / 2;
   for (std::size_t i = 0; i < pieces; ++i) {
-    const double a = nodes_[i], b = nodes_[i + 1];
-    x[3 * i] = a;
-    x[3 * i + 1] = inside[2 * i] = a + (b - a) * offset;
-    x[3 * i + 2] = inside[2 * i + 1] = b - (b - a) * offset;
+    const auto [first, second] = gauss_points(nodes_[i], nodes_[i + 1]);
+    x[3 * i] = nodes_[i];
+    x[3 * i + 1] = inside[2 * i] = first;
+    x[3 * i + 2] = inside[2 * i + 1] = second;
   }
   x.back() = nodes_.back();
   const std::vector<edges::Means> now = means_at(trains_.contour(), x), before = means_at(trains_.start(), inside);

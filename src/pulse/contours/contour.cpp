@@ -84,7 +84,7 @@ struct Measure {
   double width, range, factor;  ///< changes of x, stress and ln psi over the whole domain
 
   double between(const Piece& piece, std::size_t i) const {
-    constexpr double of_x = 0.3, of_factor = 0.3;
+    constexpr double of_x = Contour::weight_of_x, of_factor = 0.3;
     const double dx = (piece.x[i + 1] - piece.x[i]) / width, ds = (piece.stress[i + 1] - piece.stress[i]) / range;
     const double dl = std::log(piece.psi[i + 1] / piece.psi[i]) / factor;
     return std::sqrt(of_x * of_x * dx * dx + ds * ds + of_factor * of_factor * dl * dl);
@@ -282,6 +282,11 @@ class Builder {
 };
 
 }  // namespace
+
+std::array<double, 2> gauss_points(double a, double b) {
+  const double offset = (b - a) * (1 - 1 / std::sqrt(3)) / 2;
+  return {a + offset, b - offset};
+}
 
 Contour contour_at_rest(const Problem& problem) { return Builder(problem).contour(); }
 

@@ -4,6 +4,7 @@
 /// vertical line crosses them an even number of times: at the edges of the bands at that x. A curve that folds over
 /// makes two trains out of one.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -15,9 +16,13 @@
 
 namespace slipfront::pulse {
 
+/// Positions of the two-point Gauss rule between a and b; the weight of each is (b - a) / 2.
+std::array<double, 2> gauss_points(double a, double b);
+
 struct Contour {
   static constexpr std::size_t nothing = static_cast<std::size_t>(-1);
-  static constexpr double far_away = 1e300;  ///< |x| of the end of a curve that continues outside the domain
+  static constexpr double weight_of_x = 0.3;  ///< the whole domain counts as this much of the range of rapidities
+  static constexpr double far_away = 1e300;   ///< |x| of the end of a curve that continues outside the domain
 
   std::vector<double> x;
   std::vector<double> r;                    ///< rapidity of each point

@@ -41,6 +41,7 @@ Source source_of(std::vector<double> edges, std::size_t j, const Forces& forces)
       if (edges[i] == edges[j] || edges[i + 1] == edges[j]) continue;
       if (least == edges.size() || edges[i + 1] - edges[i] < edges[least + 1] - edges[least]) least = i;
     }
+    if (least == edges.size()) least = j + 2;  // all are next to edge j, which is there more than twice
     const double width = edges[least + 1] - edges[least];
     result.left_out = std::fmax(result.left_out, width / (edges.back() - edges.front()));
     const auto at = edges.begin() + static_cast<std::ptrdiff_t>(least);
@@ -66,9 +67,7 @@ Means means_of(const std::vector<double>& edges) {
     return {one.k, one.W, one.P, one.H, one.k > 0 ? one.W / one.k * one.P : 0, trains};  // <u_t^2> = U P
   }
   const rupture::BandAverages all = rupture::averages(rupture::bands_of_edges(open));
-  double squared_rate = 0;
-  for (const rupture::TrainShare& train : all.trains) squared_rate += train.omega * train.I;
-  return {all.k, all.W, all.P, all.H, squared_rate, trains};
+  return {all.k, all.W, all.P, all.H, all.squared_rate, trains};
 }
 
 }  // namespace slipfront::pulse::edges

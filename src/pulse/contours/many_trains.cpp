@@ -81,10 +81,8 @@ Work ManyTrains::power() const {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   std::vector<double> x{-Contour::far_away / 2, left};
-  const double offset = (1 - 1 / std::sqrt(3)) / 2;
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    x.push_back(std::lerp(nodes[i], nodes[i + 1], offset));
-    x.push_back(std::lerp(nodes[i], nodes[i + 1], 1 - offset));
+    for (const double point : gauss_points(nodes[i], nodes[i + 1])) x.push_back(point);
   }
   x.push_back(right);
   x.push_back(Contour::far_away / 2);
@@ -118,11 +116,12 @@ void ManyTrains::add_work(double length) {
   power_ = now;
 }
 
-/// A thousandth of the time in which the fastest point crosses the domain.
+/// A thousandth of the time in which the fastest point crosses the domain, or the time in which friction acts.
 double ManyTrains::first_step() const {
   double fastest = 0;
   for (const double v : velocities_.x) fastest = std::fmax(fastest, std::fabs(v));
-  return 1e-3 * (problem_.right - problem_.left) / fastest;
+  const double crossing = 1e-3 * (problem_.right - problem_.left) / fastest;
+  return viscosity_ > 0 ? std::fmin(crossing, 1 / viscosity_) : crossing;
 }
 
 double ManyTrains::expected_steps(double duration) const { return std::fmax(200, viscosity_ * duration); }
@@ -155,13 +154,12 @@ StepAttempt ManyTrains::attempt(const Points& before, double length) {
   find_velocities(t + length / 2, stage_, second_);
   combine(stage_, [&](std::size_t i, Part p) { return (before.*p)[i] + 3 * length / 4 * (second_.*p)[i]; });
   find_velocities(t + 3 * length / 4, stage_, third_);
-  Points reached;
-  combine(reached, [&](std::size_t i, Part p) {
+  combine(stage_, [&](std::size_t i, Part p) {
     return (before.*p)[i] + length * (2 * (velocities_.*p)[i] + 3 * (second_.*p)[i] + 4 * (third_.*p)[i]) / 9;
   });
-  find_velocities(t + length, reached, last_);
-  state_.curves.x = reached.x;
-  state_.curves.r = reached.r;
+  find_velocities(t + length, stage_, last_);
+  state_.curves.x = stage_.x;
+  state_.curves.r = stage_.r;
   const auto [lowest, highest] = std::minmax_element(before.r.begin(), before.r.end());
   double fastest = 0, squares = 0, squares_r = 0;
   for (std::size_t i = 0; i < before.x.size(); ++i) {
@@ -239,12 +237,11 @@ bool ManyTrains::remove_sawteeth() {
 bool ManyTrains::refine() {
   constexpr double far = 3, close = 0.1;  // in units of the range of rapidities over problem_.cells
   constexpr std::size_t most = 4;         // times the points at the start
-  constexpr double of_x = 0.3;
   Contour& c = state_.curves;
   const auto [lowest, highest] = std::minmax_element(c.r.begin(), c.r.end());
   const double range = *highest - *lowest, width = problem_.right - problem_.left, unit = 1.0 / problem_.cells;
   const auto apart = [&](std::size_t a, std::size_t b) {
-    return std::hypot(of_x * (c.x[b] - c.x[a]) / width, (c.r[b] - c.r[a]) / range);
+    return std::hypot(Contour::weight_of_x * (c.x[b] - c.x[a]) / width, (c.r[b] - c.r[a]) / range);
   };
   bool changed = false;
   for (std::size_t i = 0; i < c.size(); ++i) {

@@ -60,11 +60,11 @@ std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid) {
   std::vector<double> times;
   times.reserve(snapshots.size());
   for (const plane::Field& snapshot : snapshots) times.push_back(snapshot.time);
-  all.push_back(coordinate(plane::time_axis, times));
+  all.push_back(coordinate(output::time_axis, times));
   all.push_back(coordinate(plane::y_axis, grid.y(), "Y"));
   all.push_back(coordinate(plane::x_axis, grid.x(), "X"));
   const std::vector<Array::Dimension> cells = {all[1].dimensions.front(), all[2].dimensions.front()};
-  for (const plane::FieldArray& field : plane::field_arrays())
+  for (const MemberArray<plane::Field>& field : plane::field_arrays())
     all.push_back({field.about,
                    {all[0].dimensions.front(), cells[0], cells[1]},
                    [&snapshots, member = field.values] {
@@ -75,7 +75,7 @@ std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid) {
                    },
                    {}});
   const auto maps = std::make_shared<const plane::Maps>(run.maps());
-  for (const plane::MapArray& map : plane::map_arrays())
+  for (const MemberArray<plane::Maps>& map : plane::map_arrays())
     all.push_back(
         {description_of(map, run.schedule()), cells, [maps, member = map.values] { return *maps.*member; }, {}});
   add_series(all, run);
@@ -87,7 +87,7 @@ std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid) {
                  {}});
   if (!run.schedule().lines) return all;
   const auto lines = std::make_shared<const plane::LinePoints>(plane::line_points(snapshots));
-  for (const plane::LineArray& line : plane::line_arrays())
+  for (const MemberArray<plane::LinePoints>& line : plane::line_arrays())
     all.push_back(
         {line.about, {{"line_point", lines->x.size()}}, [lines, member = line.values] { return *lines.*member; }, {}});
   return all;

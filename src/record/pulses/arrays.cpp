@@ -29,7 +29,7 @@ void add_axes(std::vector<Array>& all, const std::vector<double>& times, const s
     bounds.insert(bounds.end(), {edges[i], edges[i + 1]});
   }
   const std::size_t cells = centres.size();
-  all.push_back(coordinate({"time", "time", "b / (c A)", "Eq. 3"}, times));
+  all.push_back(coordinate(output::time_axis, times));
   all.push_back(
       coordinate({"x", "position along the interface, centre of the cell", "b / A", "Eq. 3"}, std::move(centres), "X"));
   const Description about = {"x_bounds", "ends of the cell", "b / A", "Eq. 3"};
@@ -54,7 +54,7 @@ void add_events(std::vector<Array>& all, const PulseMetadata& metadata) {
   const output::FrontRecords& fronts = metadata.fronts;
   if (fronts.events.empty()) return;
   all.push_back(coordinate(output::front_position, fronts.x));
-  for (const output::FrontColumn& column : output::front_columns())
+  for (const MemberArray<output::FrontRecord>& column : output::front_columns())
     all.push_back({column.about,
                    {{"event", events.size()}, {output::front_position.name, fronts.x.size()}},
                    [&fronts, member = column.values] {

@@ -67,7 +67,7 @@ class CheckpointReader {
     for (const double time : times())
       run.fields.push_back(
           {.time = time, .nx = static_cast<int>(cells_), .ny = static_cast<int>(rows), .slip = {}, .velocity = {}});
-    for (const plane::FieldArray& field : plane::field_arrays())
+    for (const MemberArray<plane::Field>& field : plane::field_arrays())
       read_rows(
           field.about.name,
           {times_, rows, cells_}, [&](std::size_t i) -> auto& { return run.fields[i].*field.values; });
@@ -161,9 +161,9 @@ class CheckpointReader {
 
   plane::LinePoints points_of_lines() const {
     plane::LinePoints points;
-    for (const plane::LineArray& line : plane::line_arrays())
+    for (const MemberArray<plane::LinePoints>& line : plane::line_arrays())
       if (const auto variable = file_.find(std::string(line.about.name))) points.*line.values = file_.reals(*variable);
-    for (const plane::LineArray& line : plane::line_arrays())
+    for (const MemberArray<plane::LinePoints>& line : plane::line_arrays())
       if ((points.*line.values).size() != points.x.size()) fail("the points of lines have different sizes");
     return points;
   }
