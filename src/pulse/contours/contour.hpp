@@ -41,6 +41,8 @@ struct Contour {
   void archive(Archive& a);
   /// Adds a point on the curve half-way to the next point.
   void add_behind(std::size_t point);
+  /// Adds a point between a point and the next one. Returns its number.
+  std::size_t insert_behind(std::size_t point, double at_x, double at_r);
   /// Removes a point, whose number the last point gets.
   void remove(std::size_t point);
 };

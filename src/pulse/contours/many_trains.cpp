@@ -59,17 +59,40 @@ void ManyTrains::find_velocities(double time, const Points& points, Points& velo
   if (problem_.forcing) find_changes_of_ends(time, velocities);
 }
 
+std::vector<std::size_t> ManyTrains::ends(double side) const {
+  std::vector<std::size_t> ends;
+  for (std::size_t i = 0; i < now_.size(); ++i)
+    if (now_.is_end(i) && now_.x[i] * side > 0) ends.push_back(i);
+  if (ends.size() != 2) return {};
+  if (now_.r[ends[1]] < now_.r[ends[0]]) std::swap(ends[0], ends[1]);
+  return ends;
+}
+
 void ManyTrains::find_changes_of_ends(double time, Points& velocities) const {
   for (const double side : {-1.0, 1.0}) {
-    std::vector<std::size_t> ends;
-    for (std::size_t i = 0; i < now_.size(); ++i)
-      if (now_.is_end(i) && now_.x[i] * side > 0) ends.push_back(i);
-    if (ends.size() != 2) continue;
-    if (now_.r[ends[1]] < now_.r[ends[0]]) std::swap(ends[0], ends[1]);
-    const std::vector<double> edges{now_.r[ends[0]], now_.r[ends[1]]};
+    const std::vector<std::size_t> both = ends(side);
+    if (both.empty()) continue;
+    const std::vector<double> edges{now_.r[both[0]], now_.r[both[1]]};
     for (std::size_t j = 0; j < 2; ++j)
-      velocities.r[ends[j]] = edges::source_of(edges, j, forces(side * Contour::far_away, time)).change;
+      velocities.r[both[j]] = edges::source_of(edges, j, forces(side * Contour::far_away, time)).change;
   }
+}
+
+/// The fast front runs out of the domain on one edge, while the first point of the other edge runs in. Friction changes
+/// both edges behind the front, so that the other edge gets a new first point at the front. Returns whether it did.
+bool ManyTrains::extend(double side) {
+  Contour& c = state_.curves;
+  const std::vector<std::size_t> both = ends(side);
+  if (both.empty()) return false;
+  const auto first = [&c](std::size_t end) { return c.next[end] == Contour::nothing ? c.previous[end] : c.next[end]; };
+  const std::size_t a = first(both[0]), b = first(both[1]);
+  const bool a_is_inside = (c.x[b] - c.x[a]) * side > 0;
+  const std::size_t end = both[a_is_inside ? 0 : 1], inside = a_is_inside ? a : b, outside = a_is_inside ? b : a;
+  if (std::fabs(c.x[a] - c.x[b]) < (problem_.right - problem_.left) / problem_.cells) return false;
+  const std::size_t made = c.insert_behind(c.next[end] == inside ? end : inside, c.x[outside], c.r[end]);
+  c.corner[made] = true;  // its curve has no tangent towards the end, which is far away
+  c.corner[inside] = false;
+  return true;
 }
 
 /// Integrals over the domain by the two-point Gauss rule between the points of the curves.
@@ -257,6 +280,7 @@ bool ManyTrains::refine() {
     c.add_behind(i);
     changed = true;
   }
+  for (const double side : {-1.0, 1.0}) changed = extend(side) || changed;
   if (changed) now_ = c;
   return changed;
 }

@@ -91,6 +91,9 @@ class ManyTrains : public Motion {
   void add_work(double length);
   bool remove_sawteeth();
   bool refine();
+  bool extend(double side);
+  /// The ends of the two curves that continue to the left (side -1) or right, the lower rapidity first; or nothing.
+  std::vector<std::size_t> ends(double side) const;
   Points points() const { return {state_.curves.x, state_.curves.r}; }
   double first_step() const;
 

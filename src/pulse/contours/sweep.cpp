@@ -62,15 +62,17 @@ void Contour::archive(Archive& a) {
             std::all_of(next.begin(), next.end(), exists));
 }
 
-void Contour::add_behind(std::size_t a) {
+void Contour::add_behind(std::size_t a) { insert_behind(a, behind(*this, x, a).at(0.5), behind(*this, r, a).at(0.5)); }
+
+std::size_t Contour::insert_behind(std::size_t a, double at_x, double at_r) {
   const std::size_t b = next[a], made = size();
-  const double at_x = behind(*this, x, a).at(0.5), at_r = behind(*this, r, a).at(0.5);
   x.push_back(at_x);
   r.push_back(at_r);
   corner.push_back(false);
   previous.push_back(a);
   next.push_back(b);
   next[a] = previous[b] = made;
+  return made;
 }
 
 void Contour::remove(std::size_t point) {

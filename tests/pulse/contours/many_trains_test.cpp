@@ -268,6 +268,16 @@ TEST(ManyTrains, SlowDownUnderViscousFrictionAsTheChainDoes) {
   EXPECT_LT(std::fabs(end.energy.residual), 0.03 * end.energy.kinetic);
 }
 
+/// Behind a fast front that has left the domain, friction changes both edges. Once W became negative there.
+TEST(ManyTrains, HaveFrictionBehindAFrontThatLeavesTheDomain) {
+  Problem small = smooth_problem(falling, 3, 240), large = smooth_problem(falling, 6, 480);
+  small.friction = large.friction = friction::viscous(0.2);
+  const output::Snapshot in_small = end_of_motion(small, 4), in_large = end_of_motion(large, 4);
+  for (std::size_t i = 0; i < 240; ++i)
+    EXPECT_NEAR(in_small.profile.W[i], in_large.profile.W[120 + i], 2e-4 + 0.005 * in_large.profile.W[120 + i]) << i;
+  EXPECT_GE(*std::min_element(in_small.profile.W.begin(), in_small.profile.W.end()), -2e-4);
+}
+
 /// The first step was once so long that friction carried rapidities out of their range.
 TEST(ManyTrains, BeginWithStepsThatStrongFrictionAllows) {
   Problem p = smooth_problem(falling, 5, 50);
