@@ -80,6 +80,31 @@ TEST(PulseModel, SeesNoPulseBelowTheSlowestFront) {
   EXPECT_GE(model.most_u(1.001 * expected), 0);
 }
 
+TEST(PulseModel, SeesTheFastestPulseAtItsLargestStress) {
+  for (const RuptureVelocityIs seen : {RuptureVelocityIs::front, RuptureVelocityIs::characteristic}) {
+    slipfront::catalogue::Observation o = observed_front();
+    o.rupture_velocity_is = seen;
+    const sampled::PulseModel model(o, slipfront::friction::Closure::consistent);
+    const double most = model.seen_without_friction(slipfront::friction_ratio::stress_range().most);
+    EXPECT_NEAR(most / model.most_seen(), 1, 1e-12);
+  }
+}
+
+/// Far above the observed value, a normal error of 30 % counts as a factor of exp(0.3).
+TEST(Evidence, CanExcludeValuesFarAboveThoseWithNormalErrors) {
+  const auto likelihood = [](const slipfront::catalogue::Measured& m, double x, bool falls) {
+    const sampled::Evidence e{sampled::Source::contact, "contact_ratio", m, 0.2};
+    return e.blurred_likelihood(std::log(x), 0.4, falls);
+  };
+  const slipfront::catalogue::Measured normal{2, 2, slipfront::catalogue::Measured::Shape::normal, 0.6},
+      lognormal{2, 2, slipfront::catalogue::Measured::Shape::lognormal, std::exp(0.3)};
+  for (const double x : {10.0, 40.0, 200.0}) {
+    EXPECT_NEAR(likelihood(normal, x, true) / likelihood(lognormal, x, true), 1, 1e-12) << x;
+    EXPECT_GT(likelihood(normal, x, false), 0.05) << x;
+  }
+  for (const double x : {0.2, 1.5, 2.0}) EXPECT_EQ(likelihood(normal, x, true), likelihood(normal, x, false)) << x;
+}
+
 TEST(PulseModel, TakesTheStaticDropOfAPulseWithoutFriction) {
   slipfront::catalogue::Observation o = observed_front();
   o.stress_drop = slipfront::catalogue::Measured{1e6, 1e6};

@@ -44,7 +44,7 @@ double log_spread(const Measured& m) {
 
 double Evidence::spread() const { return std::hypot(log_spread(measured), blur); }
 
-double Evidence::blurred_likelihood(double ln_x, double resolution) const {
+double Evidence::blurred_likelihood(double ln_x, double resolution, bool falls) const {
   const double more = std::hypot(blur, resolution);
   double z = 0;
   switch (measured.shape) {
@@ -58,6 +58,8 @@ double Evidence::blurred_likelihood(double ln_x, double resolution) const {
       // A value that is uncertain by a factor may be near the observed one, however small it is.
       const double blurred = more * (more > 1 ? std::fmax(x, measured.low) : x);
       z = (x - measured.low) / std::hypot(under ? measured.spread_below : measured.spread, blurred);
+      if (falls && x > measured.low)
+        z = std::fmax(z, (ln_x - std::log(measured.low)) / std::hypot(measured.spread / measured.low, more));
       break;
     }
     case Measured::Shape::range: {

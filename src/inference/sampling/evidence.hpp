@@ -42,7 +42,8 @@ struct Evidence {
   double contact(double ln_x, double offset) const { return (ln_x - offset) / exponent(); }
   double predicted(double ln_A, double offset) const { return exponent() * ln_A + offset; }
   /// Approximate likelihood of the value exp(ln_x), with the blur and with a further standard deviation `resolution`.
-  double blurred_likelihood(double ln_x, double resolution) const;
+  /// A relative blur leaves some likelihood far above the observed value of a normal error. With `falls` there is none.
+  double blurred_likelihood(double ln_x, double resolution, bool falls) const;
   /// Likelihood of the value exp(ln_x); 1 for an exact observation.
   double likelihood(double ln_x) const { return measured.is_exact() ? 1 : measured.likelihood_of_log(ln_x); }
   /// Approximate standard deviation in ln, with the blur.

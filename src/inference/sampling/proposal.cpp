@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t first_cells = 16, refined_cells = 28;
 /// Length in ln V of a wide range.
 constexpr double wide_range = 4;
+/// Ratio of the stresses at the edges of further cells of V.
+constexpr double stress_step = 1.5;
 /// Part of the samples that is drawn without regard to the other observations, so that no weight becomes large.
 constexpr double defence = 0.1;
 
@@ -33,6 +35,17 @@ Axis damping_axis() {
     axis.edges.push_back(s * (2 - s));
   }
   return axis;
+}
+
+/// Adds edges at stresses that grow by `stress_step`, because W rises steeply where |V-| tends to c.
+void add_stress_edges(Axis& velocities, const PulseModel& model, double speed) {
+  const auto range = friction_ratio::stress_range();
+  const double low = velocities.edges.front(), high = velocities.edges.back();
+  for (double stress = range.least; stress < range.most; stress *= stress_step) {
+    const double ln_V = std::log(model.seen_without_friction(stress) * speed);
+    if (ln_V > low && ln_V < high) velocities.edges.push_back(ln_V);
+  }
+  std::sort(velocities.edges.begin(), velocities.edges.end());
 }
 
 /// Largest change of ln W from a cell to its neighbours.
@@ -75,7 +88,8 @@ class Sampler::AlongThird {
     double product = 1;
     for (std::size_t i = 1; i < used.size(); ++i)
       if (!used[i].measured.is_exact() || used[i].blur > 0)
-        product *= used[i].blurred_likelihood(used[i].predicted(ln_A, offsets_[i]), resolution_);
+        product *=
+            used[i].blurred_likelihood(used[i].predicted(ln_A, offsets_[i]), resolution_, sampler_.predicts_range_);
     return product;
   }
 
@@ -166,6 +180,7 @@ void Sampler::make_cells() {
     least_misfit_ = std::numeric_limits<double>::infinity();
     return;
   }
+  if (predicts_range_ && tabled && !first.is_exact()) add_stress_edges(first, model_, c);
   const bool over_damping = mode_ == Mode::friction && !solves_damping_;
   if (knows_all_but_damping()) return make_cell_of_damping(first, third);
   Filled now = filled(first, over_damping ? damping_axis() : Axis::exact(0), third);

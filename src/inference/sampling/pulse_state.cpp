@@ -116,6 +116,10 @@ PulseState PulseModel::of_prior(double share, double u) const {
   return state(rupture::from_rupture_velocity(V), 1, std::expm1(u));
 }
 
+double PulseModel::seen_without_friction(double stress) const {
+  return rupture::from_stress(stress).rupture_velocity * (sees_front_ ? front_(stress, 0).value : 1);
+}
+
 double PulseModel::seen(const PulseState& p, double u) const {
   if (!sees_front_) return p.rupture_velocity;
   const double stress = std::clamp(p.stress, stress_range().least, stress_range().most);

@@ -43,6 +43,8 @@ class PulseModel {
   /// Returns a pulse of the prior, which is uniform in ln |V-|: `share` = 0 is the slowest and 1 the fastest. Its
   /// stress is in the range of the table.
   PulseState of_prior(double share, double u) const;
+  /// The velocity at which the pulse of this stress is seen without friction, in c.
+  double seen_without_friction(double stress) const;
   /// The velocity at which this pulse is seen, in c.
   double seen(const PulseState& pulse, double u) const;
 

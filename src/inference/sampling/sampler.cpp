@@ -58,6 +58,7 @@ Sampler::Sampler(const Observation& o, const medium::Defaults& defaults, const S
       velocity_(o.rupture_velocity_m_s),
       model_(o, sampling.closure),
       all_(evidence_of(o)),
+      predicts_range_(within.has_value()),
       seed_(seed_of(sampling.seed, o)),
       points_(sampling.samples, seed_),
       middle_(surroundings_of(o, elastic(o, defaults))),

@@ -131,6 +131,7 @@ class Sampler {
   Mode mode_ = Mode::nothing;
   bool knows_contact_ = false, fixes_friction_ = false, uncertain_ = false, solves_damping_ = false,
        has_errors_ = false;
+  bool predicts_range_;  ///< only states that predict a value in a range count
   std::uint64_t seed_;
   ShiftedSobol points_;
   Surroundings middle_;
