@@ -269,6 +269,10 @@ TEST(Posterior, RejectsContradictoryObservations) {
     return std::string("accepted");
   };
   EXPECT_NE(complaint().find("above that without friction"), std::string::npos) << complaint();
+  // A little faster than without friction is already too fast.
+  const rupture::Relations r = rupture::from_rupture_velocity(3000 / c);
+  o.slip_velocity_m_s = exact(1.05 * medium::slip_velocity_unit(c, 0.001) * r.slip_velocity);
+  EXPECT_NE(complaint().find("above that without friction"), std::string::npos) << complaint();
   o.slip_velocity_m_s = exact(1e-12);
   EXPECT_NE(complaint().find("below that at every damping number"), std::string::npos) << complaint();
   o.rupture_velocity_m_s = exact(5420.9);

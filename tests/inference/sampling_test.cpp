@@ -176,6 +176,23 @@ TEST(Posterior, RejectsSamplesFasterThanTheirMedium) {
   EXPECT_LT(p.rupture_velocity->high, 1);
 }
 
+/// The friction coefficient is the damping number times b / (T c A), and as uncertain as b where all else is exact.
+TEST(Posterior, DrawsSpacingsBelowAMetre) {
+  slipfront::catalogue::Observation o = observed_front();
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.5, 0.5};
+  o.contact_ratio = 0.01;
+  o.duration = slipfront::catalogue::Measured{10, 10};
+  o.asperity_spacing = 0.02;
+  o.uncertain_constants = {{&slipfront::medium::Constants::asperity_spacing, {0.01, 0.03}}};
+  const auto p = *sampled::posterior(o, {}, {.samples = 2000});
+  ASSERT_TRUE(p.friction_coefficient && p.damping_number);
+  EXPECT_NEAR(p.damping_number->high / p.damping_number->low, 1, 1e-9);
+  const double per_spacing = p.damping_number->median / (10 * sampled::estimate(o, {}).speed * 0.01);
+  EXPECT_NEAR(p.friction_coefficient->low / per_spacing, 0.011, 2e-4);
+  EXPECT_NEAR(p.friction_coefficient->high / per_spacing, 0.029, 2e-4);
+}
+
 TEST(Posterior, DrawsPriorStatesWhoseVelocitiesAgree) {
   slipfront::catalogue::Observation o = observed_front();
   o.rupture_velocity_m_s = slipfront::catalogue::Measured{2900, 3100};

@@ -41,8 +41,9 @@ Axis damping_axis() {
 void add_stress_edges(Axis& velocities, const PulseModel& model, double speed) {
   const auto range = friction_ratio::stress_range();
   const double low = velocities.edges.front(), high = velocities.edges.back();
-  for (double stress = range.least; stress < range.most; stress *= stress_step) {
-    const double ln_V = std::log(model.seen_without_friction(stress) * speed);
+  const int steps = static_cast<int>(std::log(range.most / range.least) / std::log(stress_step));
+  for (int i = 1; i <= steps; ++i) {
+    const double ln_V = std::log(model.seen_without_friction(range.least * std::pow(stress_step, i)) * speed);
     if (ln_V > low && ln_V < high) velocities.edges.push_back(ln_V);
   }
   std::sort(velocities.edges.begin(), velocities.edges.end());

@@ -102,4 +102,57 @@ TEST(ChainAbsorbing, DeviationsFromATrainLeaveWithTheVelocityOfWaves) {
   }
 }
 
+/// A uniform train that pulls on the train outside, in motion with the velocity of the fan: u_x = -2 a cosh phi
+/// sqrt(sinh^2 psi + sin^2(u / 2)) with psi = psi0 - |phi|. The end moves with it, and passes its power U u_x^2.
+TEST(ChainAbsorbing, EndsFollowATrainThatPulls) {
+  constexpr double h = 0.05, dt = 0.04, a = 0.8, eps = dt * dt / 12;
+  constexpr std::size_t reach = 400;
+  const double psi0 = train::psi_of_stress(2);
+  for (const int outward : {-1, 1}) {
+    const double phi = -0.3 * outward, U = std::tanh(phi), sinh_psi = std::sinh(psi0 - 0.3);
+    const auto slope = [&](double u) { return -2 * a * std::cosh(phi) * std::hypot(sinh_psi, std::sin(u / 2)); };
+    const auto moved = [&](double u, double distance) {  // by Runge and Kutta
+      const double d = distance / 8;
+      for (int i = 0; i < 8; ++i) {
+        const double k1 = slope(u), k2 = slope(u + d / 2 * k1), k3 = slope(u + d / 2 * k2), k4 = slope(u + d * k3);
+        u += d / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+      }
+      return u;
+    };
+    const auto z = [&](double u) { return (u + eps * a * a * std::sin(u)) / (2 * pi); };
+    const std::size_t last = outward > 0 ? reach + 1 : 0;
+    std::vector<double> now(reach + 2), next(reach + 2);
+    double u = 1.2, u_next = moved(u, -U * dt);
+    const double expected = z(u_next), middle = slope((u + u_next) / 2);
+    for (std::size_t i = 0; i <= reach + 1; ++i) {
+      const std::size_t j = outward > 0 ? last - i : i;
+      now[j] = z(u);
+      next[j] = i == 0 ? NAN : z(u_next);
+      u = moved(u, -outward * h);
+      u_next = moved(u_next, -outward * h);
+    }
+    const AbsorbingEnd end{psi0, AbsorbingEnd::shocks_into(psi0), a, h, dt, eps, outward, reach};
+    const AbsorbingEnd::Step step = end.step(&now[last], &next[last]);
+    EXPECT_NEAR((step.next - now[last]) / (expected - now[last]), 1, 2e-3) << outward;
+    EXPECT_NEAR(step.outflow / (outward * U * middle * middle * dt), 1, 2e-3) << outward;
+  }
+}
+
+/// Behind a shock, spacing l, momentum M and pressure p satisfy (p - p0) (l - l0) + U M = 0: its speed in labels is the
+/// same in the balances of length and momentum.
+TEST(ChainAbsorbing, ShocksBalanceLengthAndMomentum) {
+  const double psi0 = 0.4;
+  const std::vector<double> gains = *AbsorbingEnd::shocks_into(psi0);
+  const double least_phi = 1e-12, most_phi = 2.7;
+  for (const std::size_t i : {300u, 380u, 400u}) {
+    const double phi = least_phi * std::pow(most_phi / least_phi, static_cast<double>(i) / 400);
+    const State behind{phi, psi0 + gains[i]};
+    const auto spacing = [](const State& s) { return 1 / train::averages(s).k * 2 * pi; };
+    const auto pressure = [](const State& s) { return 2 * std::sinh(s.psi) * std::sinh(s.psi); };
+    const double M = 2 * pi * train::averages(behind).P / train::averages(behind).k, U = std::tanh(phi);
+    const double rise = pressure(behind) - pressure({0, psi0}), gap = spacing(behind) - spacing({0, psi0});
+    EXPECT_NEAR(rise * gap / (U * M), -1, 1e-6) << phi;
+  }
+}
+
 }  // namespace

@@ -56,6 +56,40 @@ TEST(Kernels, FindTrainsAtFaces) {
     }
 }
 
+/// A creeping train counts as one with the hypotenuse of both velocities.
+TEST(Kernels, AddCreepAtRightAngles) {
+  const double psi = 0.6, contact = 1.3;
+  for (const double creep : {1e-3, 0.4, 2.0}) {
+    const double both[] = {0.4, std::hypot(0.4, creep)}, psis[] = {psi, psi}, contacts[] = {contact, contact};
+    double fastest[2], s[2], per_momentum[2];
+    pulse::find_trains({1, both, psis, contacts, fastest, s, per_momentum}, creep);
+    pulse::find_trains({1, both + 1, psis, contacts, fastest + 1, s, per_momentum + 1}, 0);
+    EXPECT_NEAR(fastest[0] / fastest[1], 1, 1e-14) << creep;
+    EXPECT_NEAR(per_momentum[0] / per_momentum[1], 1, 1e-14) << creep;
+  }
+}
+
+/// Waves run at +-c0 in the frame of the dislocations. The sum of velocities is that of special relativity.
+TEST(Kernels, FindTheTimeInWhichAWaveCrossesACell) {
+  for (const double U : {0.0, 0.3, -0.8})
+    for (const double c0 : {0.1, 0.9}) {
+      const auto seen = [&](double wave) { return std::fabs((U + wave) / (1 + U * wave) - U); };
+      const double width = 0.7, slow = -1e-6, fast = -20;
+      const double crossing = width / std::fmax(seen(c0), seen(-c0));
+      EXPECT_NEAR(pulse::least_crossing_time(1, &width, &slow, &U, &c0) / crossing, 1, 1e-13);
+      EXPECT_NEAR(pulse::least_crossing_time(1, &width, &fast, &U, &c0), 0.3 * width / 20, 1e-15);
+    }
+}
+
+TEST(Kernels, FindTheFastestSlipOfATrain) {
+  for (const double phi : {1e-9, -0.4, 3.0, -40.0})
+    for (const double psi : {1e-8, 0.7, 30.0}) {
+      double fastest = 0;
+      pulse::fastest_slip(1, &phi, &psi, &fastest);
+      EXPECT_NEAR(fastest / (2 * std::sinh(std::fabs(phi)) * std::cosh(psi)), 1, 1e-14) << phi << " " << psi;
+    }
+}
+
 /// After a Newton step in M, values follow to first order. It is the last step if the equation holds before it.
 TEST(Kernels, FollowValuesThroughANewtonStep) {
   const double U = 0.4, s = 0.6, fastest = 0.9, force = 0.3, slope = 0.2, weight = 2.5, momentum = 1.7;

@@ -85,4 +85,41 @@ TEST(CentreValues, AreUndoneByCellMeans) {
   for (std::size_t i = 4; i + 4 < f.size(); ++i) EXPECT_NEAR(back[i], f[i], 1e-9) << i;
 }
 
+/// The averages of a polynomial of fifth degree give its values, and these the averages.
+TEST(CentreValues, AreExactForPolynomialsOfFifthDegree) {
+  const auto f = [](double x) { return 3 + x * x + 1e-3 * x * x * x * x + 1e-4 * x * x * x * x * x; };
+  const auto integral = [](double x) {
+    return 3 * x + x * x * x / 3 + 2e-4 * std::pow(x, 5) + 1e-4 / 6 * std::pow(x, 6);
+  };
+  std::vector<double> mean, middle;
+  for (int i = -4; i <= 4; ++i) {
+    middle.push_back(f(i));
+    mean.push_back(integral(i + 0.5) - integral(i - 0.5));
+  }
+  std::vector<double> values(mean.size()), means(mean.size());
+  pulse::centre_values(mean.size(), {0, mean.size()}, mean.data(), values.data());
+  pulse::cell_means(mean.size(), {0, mean.size()}, middle.data(), means.data());
+  for (std::size_t i = 2; i + 2 < mean.size(); ++i) {
+    EXPECT_NEAR(values[i], middle[i], 1e-13) << i;
+    EXPECT_NEAR(means[i], mean[i], 1e-13) << i;
+  }
+}
+
+TEST(WenoFaces, TakeEachInvariantFromItsOwnSide) {
+  constexpr std::size_t faces = 5, cells = faces - 1 + 6;
+  std::vector<double> plus, minus, phi(faces), psi(faces);
+  for (std::size_t i = 0; i < cells; ++i) {
+    plus.push_back(std::sin(1.3 * double(i)) + (i > 6 ? 2 : 0));
+    minus.push_back(std::cos(0.7 * double(i)) - 0.3);
+  }
+  const double *p = plus.data() + 3, *m = minus.data() + 3, scale = 1.7;
+  pulse::weno_faces(faces, p, m, scale, phi.data(), psi.data());
+  for (std::size_t f = 0; f < faces; ++f) {
+    const double left = weno5(p[f - 3], p[f - 2], p[f - 1], p[f], p[f + 1]);
+    const double right = weno5(m[f + 2], m[f + 1], m[f], m[f - 1], m[f - 2]);
+    EXPECT_NEAR(phi[f], scale * (left + right) / 2, 1e-14) << f;
+    EXPECT_NEAR(psi[f], scale * std::fmax(left - right, 0.0) / 2, 1e-14) << f;
+  }
+}
+
 }  // namespace

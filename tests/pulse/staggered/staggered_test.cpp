@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/math/special_functions/ellint_2.hpp>
 #include <cmath>
 #include <vector>
 
@@ -76,6 +77,56 @@ TEST(Staggered, StepsTakeTheFrictionOfTheirEnd) {
     for (std::size_t f = 3; f + 2 < cells; ++f)
       EXPECT_NEAR(then.momentum(f), 1e-8 / (1 + 2 * time), 1e-12 / (1 + 2 * time)) << time;
   }
+}
+
+/// Means over the cells of momenta that are a cubic function inside a block, and a line in its end cells.
+TEST(Staggered, FindsMeansOfCubicMomenta) {
+  pulse::Setup two = setup(friction::viscous(1), Edge::free);
+  two.charge[5] = 0;
+  const Staggered equations(two);
+  const auto f = [](double x) { return 1 + 0.3 * x - 0.02 * x * x + 1e-3 * x * x * x; };
+  const auto integral = [](double x) { return x + 0.15 * x * x - 0.02 / 3 * x * x * x + 0.25e-3 * x * x * x * x; };
+  std::vector<double> at_faces, means(cells);
+  for (std::size_t face = 0; face <= cells; ++face) at_faces.push_back(equations.charge_around(face) * f(double(face)));
+  equations.cell_momenta(at_faces.data(), means.data());
+  for (std::size_t i = 0; i < cells; ++i) {
+    const auto x = double(i);
+    const bool at_end = i == 0 || i == 4 || i == 6 || i + 1 == cells;
+    const double mean = at_end ? (f(x) + f(x + 1)) / 2 : integral(x + 1) - integral(x);
+    EXPECT_NEAR(means[i], i == 5 ? 0 : 0.05 * mean, 1e-14) << i;
+  }
+}
+
+/// Under viscous friction the terminal momentum is force / C, and its velocity that of a train with this momentum.
+TEST(Staggered, FindsTheTerminalMotionOfTheDislocationUnderTheLargestForce) {
+  for (const double C : {0.5, 20.0}) {
+    Staggered equations(setup(friction::viscous(C)));
+    const std::vector<double> z = unknowns(0.4, 0);
+    std::vector<double> rates(z.size());
+    equations.start_from(std::vector<double>(cells, 0.3));
+    equations(0, z.data(), rates.data());
+    const pulse::FaceValues rate(rates.data(), cells + 1);
+    rate.momentum(4) = 0.002;
+    rate.momentum(6) = -0.05;  // 1 on each dislocation
+    rate.momentum(7) = 0.01;
+    const Staggered::Terminal terminal = equations.terminal(rates.data());
+    EXPECT_NEAR(terminal.momentum * C, 1, 1e-9);
+    EXPECT_EQ(terminal.rate, C);
+    const State at_rest = modulation::state_of({8, 0}, 0.5);
+    const double mass = std::cosh(at_rest.psi) * boost::math::ellint_2(1 / std::cosh(at_rest.psi));
+    EXPECT_NEAR(terminal.velocity, std::tanh(std::asinh(1 / (8 * C * mass))), 1e-9);
+  }
+}
+
+TEST(Staggered, CountsTheWorkOfFriction) {
+  Staggered equations(setup(friction::viscous(2)));
+  const std::vector<double> z = unknowns(0.4, 1e-4);
+  std::vector<double> rates(z.size());
+  equations.start_from(std::vector<double>(cells, 0.3));
+  equations(0, z.data(), rates.data());
+  const pulse::ConstFaceValues rate(rates.data(), cells + 1);
+  const double velocity = std::tanh(modulation::state_of({8, 1e-4 / 0.05}, 0.5).phi);
+  EXPECT_NEAR(rate.dissipated() / ((cells - 1) * velocity * 2 * 1e-4), 1, 1e-6);
 }
 
 }  // namespace

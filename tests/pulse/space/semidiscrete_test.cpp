@@ -1,0 +1,135 @@
+// Rates and times that the equations in the cells report, for trains in which they are known.
+
+#include "pulse/space/semidiscrete.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "pulse/grid/values.hpp"
+
+namespace {
+
+using namespace slipfront;
+using pulse::Edge;
+using pulse::Semidiscrete;
+
+/// Cells around gaps at 4 and 5, all of one width, with this momentum per dislocation.
+struct TwoTrains {
+  static constexpr std::size_t cells = 12;
+  pulse::Setup setup;
+  std::vector<double> y, rates;
+
+  TwoTrains(const friction::Friction& friction, double width, double momentum) {
+    setup.charge.assign(cells, 0.05);
+    setup.charge[4] = setup.charge[5] = 0;
+    setup.left = setup.right = Edge::continued;
+    setup.friction = friction;
+    y.assign(pulse::Values::size(cells), 0);
+    rates.assign(y.size(), 0);
+    const pulse::Values values(y.data(), cells);
+    for (std::size_t i = 0; i < cells; ++i) {
+      values.width(i) = width;
+      values.momentum(i) = momentum * setup.charge[i];
+    }
+  }
+  Semidiscrete called() {
+    Semidiscrete equations(setup);
+    equations.start_from(std::vector<double>(cells, 0.3));
+    equations(0, y.data(), rates.data());
+    return equations;
+  }
+};
+
+TEST(Semidiscrete, ReportsTheRateOfViscousFriction) {
+  TwoTrains trains(friction::viscous(1e-3), 0.4, 0.7);
+  const Semidiscrete equations = trains.called();
+  EXPECT_EQ(equations.largest_friction_rate(), 1e-3);
+  EXPECT_NEAR(equations.mean_friction_rate(), 1e-3, 1e-12);
+  EXPECT_NEAR(equations.friction_rate_of_fastest(), 1e-3, 1e-12);
+}
+
+/// All dislocations are equal, and so are the three rates: 2 pi <f> / M.
+TEST(Semidiscrete, ReportsTheRateOfOtherFriction) {
+  for (const friction::Friction& f : {friction::power(1e-3, 2), friction::power(1e-3, 0.6)}) {
+    TwoTrains trains(f, 0.4, 0.7);
+    const Semidiscrete equations = trains.called();
+    const double rate = 2 * std::numbers::pi * f.mean_strength(equations.states()[2], 1) / 0.7;
+    EXPECT_NEAR(equations.largest_friction_rate() / rate, 1, 1e-6) << f.name();
+    EXPECT_NEAR(equations.mean_friction_rate() / rate, 1, 1e-6) << f.name();
+    EXPECT_NEAR(equations.friction_rate_of_fastest() / rate, 1, 1e-6) << f.name();
+  }
+}
+
+/// Sound crosses a cell at rest in width / c0. Gaps count as cells without width.
+TEST(Semidiscrete, ReportsTheTimeInWhichSoundCrossesACell) {
+  TwoTrains trains(friction::Friction{}, 0.4, 0);
+  const Semidiscrete equations = trains.called();
+  const double mean_width = 0.4 * 10 / 12, speed = equations.trains().sound_speed[2];
+  EXPECT_GT(speed, 0.1);
+  EXPECT_NEAR(equations.mean_crossing_time(trains.y.data()), mean_width / speed, 1e-14);
+}
+
+/// A train of this many cells from -3 to 3, and its mirror image.
+struct Mirrored {
+  static constexpr std::size_t cells = 16;
+  pulse::Setup setup;
+  std::vector<double> y, rates;
+
+  Mirrored(bool is_image, Edge edge, bool rough, double collision) {
+    setup.charge.assign(cells, 0.2);
+    setup.left = setup.right = edge;
+    setup.left_wall = -3;
+    setup.right_wall = 3;
+    setup.friction = friction::power(0.3, 0.6);
+    const double sign = is_image ? -1 : 1;
+    if (rough) setup.contact = [sign](double x) { return 1 + 0.1 * std::sin(sign * x + 0.3); };
+    y.assign(pulse::Values::size(cells), 0);
+    rates.assign(y.size(), 0);
+    const pulse::Values values(y.data(), cells);
+    values.left_edge() = -3;
+    double sum = 0;
+    const auto width = [](double at) { return 0.4 + 0.05 * std::sin(0.5 * at) + 0.02 * std::cos(at); };
+    for (std::size_t i = 0; i < cells; ++i) sum += width(static_cast<double>(i));
+    for (std::size_t i = 0; i < cells; ++i) {
+      const auto at = static_cast<double>(is_image ? cells - 1 - i : i);
+      values.width(i) = width(at) * 6 / sum;
+      values.momentum(i) = sign * 0.2 * (std::sin(0.4 * at) + collision * (at < 6 ? 1 : -1.5));
+    }
+  }
+  Semidiscrete called() {
+    Semidiscrete equations(setup);
+    equations.start_from(std::vector<double>(cells, 0.3));
+    equations(0, y.data(), rates.data());
+    return equations;
+  }
+};
+
+/// No direction along x is preferred, at ends, at collisions, under friction and on a rough contact.
+TEST(Semidiscrete, MirrorImagesHaveMirroredRates) {
+  constexpr std::size_t n = Mirrored::cells;
+  for (const Edge edge : {Edge::free, Edge::wall, Edge::continued})
+    for (const bool rough : {false, true})
+      for (const double collision : {0.0, 14.0}) {
+        Mirrored train(false, edge, rough, collision), image(true, edge, rough, collision);
+        const Semidiscrete equations = train.called(), mirrored = image.called();
+        const pulse::ConstValues rates(train.rates.data(), n), image_rates(image.rates.data(), n);
+        double size = 0;
+        for (std::size_t i = 0; i < n; ++i) size = std::fmax(size, std::fabs(rates.momentum(i)));
+        for (std::size_t i = 0; i < n; ++i) {
+          const std::size_t j = n - 1 - i;
+          EXPECT_NEAR(rates.width(i), image_rates.width(j), 1e-11) << i;
+          EXPECT_NEAR(rates.momentum(i), -image_rates.momentum(j), 1e-11 * size) << i;
+          EXPECT_EQ(equations.shocked()[i], mirrored.shocked()[j]) << i;
+        }
+        EXPECT_NEAR(rates.dissipated(), image_rates.dissipated(), 1e-11 * rates.dissipated());
+        EXPECT_EQ(equations.shocked()[5], collision > 0 ? 1 : 0);
+        const std::size_t met = equations.crossing(1e3, train.y.data());
+        EXPECT_EQ(met == n, collision == 0);
+        EXPECT_EQ(mirrored.crossing(1e3, image.y.data()), met == n ? n : n - 1 - met);
+      }
+}
+
+}  // namespace
