@@ -3,53 +3,125 @@
 #include <cmath>
 #include <utility>
 
+#include "friction/scaled_law.hpp"
 #include "friction/scaling.hpp"
 #include "friction/state/contacts.hpp"
+#include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::friction {
 
+namespace {
+
+constexpr std::string_view normal_stress = "normal_stress", coefficient = "coefficient";
+
+/// Whether the force is proportional to the coefficient, as it has no other parameter that is a force.
+bool is_proportional(const Definition& definition) {
+  std::size_t forces = 0;
+  for (const Parameter& p : definition.parameters) forces += p.dimension == Dimension::force ? 1u : 0u;
+  return forces == 1 && definition.find(coefficient) != nullptr;
+}
+
+std::size_t index_of(const Definition& definition, std::string_view parameter) {
+  return static_cast<std::size_t>(definition.find(parameter) - definition.parameters.data());
+}
+
+AlongInterface divided(const AlongInterface& value, double by) {
+  return {[by, at = value.at](double x, double y) { return at(x, y) / by; }, value.least / by, value.most / by};
+}
+
+AlongInterface product(const AlongInterface& a, const AlongInterface& b) {
+  return {[one = a.at, other = b.at](double x, double y) { return one(x, y) * other(x, y); }, a.least * b.least,
+          a.most * b.most};
+}
+
+}  // namespace
+
 Friction::Friction(const Definition& definition, std::vector<double> values, Closure closure, Curve curve)
+    : Friction(definition, std::move(values), closure, std::move(curve), {}) {}
+
+Friction::Friction(const Definition& definition, std::vector<double> values, Closure closure, Curve curve,
+                   Variations varying)
     : definition_(&definition),
       values_(std::move(values)),
+      varying_(std::move(varying)),
       curve_(std::move(curve)),
-      closure_(closure),
-      law_(definition.make(values_, curve_)) {
+      closure_(closure) {
+  std::optional<AlongInterface> share;
+  Varying apart{.own = definition.state.size(), .least = values_};
+  for (const auto& [name, value] : varying_) {
+    if (name == normal_stress || (name == coefficient && is_proportional(definition))) {
+      const AlongInterface part = value.most > 0 ? divided(value, value.most) : AlongInterface{value.at, 0, 0};
+      share = share ? product(*share, part) : part;
+      continue;
+    }
+    const std::size_t index = index_of(definition, name);
+    apart.parameters.push_back(index);
+    apart.least[index] = value.least;
+    columns_.push_back(value);
+    column_names_.push_back(name);
+  }
+  law_ = definition.make(values_, curve_, apart);
+  linear_ = law_->facts().linear_coefficient;
   for (std::size_t i = 0; i < values_.size(); ++i)
     acts_ = acts_ || (definition.parameters[i].dimension == Dimension::force && values_[i] > 0);
   if (!acts_) check_no_force(definition, values_);
+  if (share) {
+    law_ = scaled_law(law_);
+    columns_.push_back(*share);
+    column_names_.emplace_back("share_of_force");
+  }
   contacts_ = std::make_shared<const Contacts>(Contacts{.ageing = parameter("contact_ageing"),
                                                         .age = parameter("contact_time"),
                                                         .dilatancy = parameter("dilatancy"),
                                                         .drainage = parameter("drainage_time"),
                                                         .ambient = parameter("pore_pressure")});
+  if (varies() && changes_contacts())
+    throw InputError({.key = varying_.begin()->first,
+                      .problem = "varies along the interface, where friction changes contacts or pores",
+                      .allowed = "a number, or friction without contact_ageing and dilatancy"});
   at_rest_ = law_->strength(0, state_at_start());
 }
 
-Friction Friction::with(Closure closure) const {
-  Friction other(*definition_, values_, closure, curve_);
-  other.varying_ = varying_;
-  return other;
-}
+Friction Friction::with(Closure closure) const { return {*definition_, values_, closure, curve_, varying_}; }
 
 Friction Friction::with(std::string_view parameter, double value) const {
   std::vector<double> values = values_;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (definition_->parameters[i].name == parameter) values[i] = value;
-  Friction other(*definition_, std::move(values), closure_, curve_);
-  other.varying_ = varying_;
-  return other;
+  values.at(index_of(*definition_, parameter)) = value;
+  Variations varying = varying_;
+  if (const auto found = varying.find(parameter); found != varying.end()) varying.erase(found);
+  return {*definition_, std::move(values), closure_, curve_, std::move(varying)};
 }
 
-Friction Friction::with(std::string_view parameter, AlongInterface value) const {
-  Friction other = *this;
-  other.varying_.insert_or_assign(std::string(parameter), std::move(value));
-  return other;
+Friction Friction::with(std::string_view parameter, const AlongInterface& value) const {
+  std::vector<double> values = values_;
+  values.at(index_of(*definition_, parameter)) = value.most;
+  Variations varying = varying_;
+  varying.insert_or_assign(std::string(parameter), value);
+  return {*definition_, std::move(values), closure_, curve_, std::move(varying)};
 }
 
-double Friction::factor(double x, double y) const {
-  const auto varying = varying_.find("coefficient");
-  return varying == varying_.end() ? 1 : varying->second(x, y) / parameter("coefficient");
+Friction Friction::under(const AlongInterface& share) const {
+  Variations varying = varying_;
+  varying.insert_or_assign(std::string(normal_stress), share);
+  return {*definition_, values_, closure_, curve_, std::move(varying)};
+}
+
+std::optional<double> Friction::linear_coefficient(double x, double y) const {
+  return linear_ && varies() ? std::optional(*linear_ * columns_.back().at(x, y)) : linear_;
+}
+
+std::vector<std::string> Friction::state_names() const {
+  std::vector<std::string> names;
+  for (const StateVariable& variable : definition_->state) names.emplace_back(variable.name);
+  names.insert(names.end(), column_names_.begin(), column_names_.end());
+  return names;
+}
+
+void Friction::start(double x, double y, std::span<double> state) const {
+  const std::size_t own = definition_->state.size();
+  for (std::size_t i = 0; i < columns_.size(); ++i) state[own + i] = columns_[i].at(x, y);
+  evolution().start(state);
 }
 
 double Friction::parameter(std::string_view name) const {
@@ -65,17 +137,23 @@ Friction Friction::scaled_by(double scale) const {
   };
   std::vector<double> values = values_;
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = in_scale(values[i], definition_->parameters[i].dimension);
-  Friction scaled(*definition_, std::move(values), closure_, curve_);
-  for (const auto& [name, value] : varying_)
-    scaled.varying_.emplace(name, [=, dimension = definition_->find(name)->dimension, at = value](double x, double y) {
-      return in_scale(at(x / scale, y / scale), dimension);
-    });
+  Variations varying;
+  for (const auto& [name, value] : varying_) {
+    const Parameter* const parameter = definition_->find(name);  // null for the share of the normal stress
+    const Dimension dimension = parameter ? parameter->dimension : Dimension::number;
+    varying.emplace(name, AlongInterface{[=, at = value.at](double x, double y) {
+                                           return in_scale(at(x / scale, y / scale), dimension);
+                                         },
+                                         in_scale(value.least, dimension), in_scale(value.most, dimension)});
+  }
+  Friction scaled(*definition_, std::move(values), closure_, curve_, std::move(varying));
   check_scaling(*this, scaled, scale);
   return scaled;
 }
 
 std::vector<double> Friction::state_at_start() const {
   std::vector<double> state(state_size());
+  for (std::size_t i = 0; i < columns_.size(); ++i) state[definition_->state.size() + i] = columns_[i].most;
   evolution().start(state);
   return state;
 }

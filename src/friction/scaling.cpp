@@ -19,7 +19,7 @@ Curve probe_curve(const Definition& definition) {
 }
 
 std::shared_ptr<const Law> probe_law(const Definition& definition, const std::vector<double>& values) {
-  return definition.make(values, probe_curve(definition));
+  return definition.make(values, probe_curve(definition), {});
 }
 
 [[noreturn]] void refuse(const Definition& definition, const std::string& problem) {
@@ -35,7 +35,8 @@ struct Position {
   std::shared_ptr<const Law> law;
   std::vector<double> state;
 
-  Position(const Friction& friction, std::shared_ptr<const Law> of) : law(std::move(of)), state(friction.state_size()) {
+  Position(const Friction& friction, std::shared_ptr<const Law> of)
+      : law(std::move(of)), state(friction.definition().state.size()) {
     law->evolution().start(state);
   }
   void slip(double velocity, double time) { law->evolution().advance(Slip::at(velocity), time, state); }
@@ -73,7 +74,7 @@ void check_scaling(const Friction& original, const Friction& scaled, double scal
   Position one(original, probe_law(definition, values_of(original)));
   Position stretched(scaled, probe_law(definition, values_of(scaled)));
   compare_forces(definition, one, stretched, scale);
-  if (original.state_size() == 0) return;
+  if (definition.state.empty()) return;
   struct History {
     double velocity, time;
   };

@@ -60,8 +60,7 @@ void Solver::restore(Cells cells) {
 
 void Solver::archive(Archive& a) {
   std::string states = "state:";
-  for (const friction::StateVariable& variable : problem().friction.definition().state)
-    states += " " + std::string(variable.name);
+  for (const std::string& name : problem().friction.state_names()) states += " " + name;
   a.same(states);
   if (!a.reads()) return a(parts_->cells);
   Cells saved;

@@ -162,6 +162,12 @@ Value convert(const toml::node& node, bool overridden) {
   } else if (const auto* array = node.as_array()) {
     value.kind = Value::Kind::array;
     for (const toml::node& item : *array) value.items.push_back(convert(item, overridden));
+  } else if (const auto* table = node.as_table()) {
+    value.kind = Value::Kind::table;
+    for (const auto& [name, item] : *table) {
+      value.names.emplace_back(name.str());
+      value.items.push_back(convert(item, overridden));
+    }
   }
   return value;
 }

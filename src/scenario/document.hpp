@@ -68,14 +68,14 @@ medium::Dimension dimension_of(ModelUnit unit);
 
 /// One value of a scenario file, independent of the TOML syntax.
 struct Value {
-  enum class Kind { number, text, truth, array, other };
+  enum class Kind { number, text, truth, array, table, other };
   Kind kind = Kind::other;
-  double number = 0;      ///< the number; 1 or 0 for a truth value
-  std::string text = {};  ///< the text, or the number as messages show it
-  std::vector<Value> items = {};
+  double number = 0;                    ///< the number; 1 or 0 for a truth value
+  std::string text = {};                ///< the text, or the number as messages show it
+  std::vector<Value> items = {};        ///< of an array or an inline table
+  std::vector<std::string> names = {};  ///< of the items of an inline table
   std::size_t line = 0;
-  bool overridden = false;          ///< came from the command line, not from the file
-  bool stands_for_formula = false;  ///< a formula of x and y, which is read elsewhere, was here
+  bool overridden = false;  ///< came from the command line, not from the file
 };
 
 struct Table {

@@ -1,6 +1,7 @@
 // The table [friction] of a scenario.
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -44,9 +45,131 @@ medium::Dimension kind_of(Dimension dimension) {
   return dimension == Dimension::pressure ? medium::Dimension::pressure : dimension_of(model_unit(dimension));
 }
 
+/// Whether a key varies along the interface: by a table, or by a text that is a formula rather than a number with a
+/// unit.
+bool varies(const Value& value) {
+  if (value.kind == Value::Kind::table) return true;
+  if (value.kind != Value::Kind::text || is_quantity(value.text)) return false;
+  std::string word;
+  for (const char c : value.text + " ") {
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_') {
+      word += c;
+    } else if (word == "x" || word == "y") {
+      return true;
+    } else {
+      word.clear();
+    }
+  }
+  return false;
+}
+
+/// Linear between the rows of a table.
+std::function<double(double, double)> along_rows(const TableFile& file, const Column& column) {
+  const Column place{"x", {.least = -farthest, .most = farthest}, file.section.in_file(ModelUnit::position)};
+  const auto rows = std::make_shared<const std::vector<std::pair<double, double>>>(file.rows(place, column));
+  return [rows, where = file.section.where(file.key)](double x, double) {
+    const double first = rows->front().first, last = rows->back().first, rounding = 1e-9 * (last - first);
+    if (!(x >= first - rounding && x <= last + rounding))
+      throw refused_at(where, "the table gives no value at x = " + shortest(x),
+                       "a table over the whole domain; it has x = " + shortest(first) + " to " + shortest(last));
+    const auto next = std::upper_bound(rows->begin() + 1, rows->end() - 1, x,
+                                       [](double value, const auto& row) { return value < row.first; });
+    const auto& [x0, y0] = *(next - 1);
+    const auto& [x1, y1] = *next;
+    const double share = std::clamp((x - x0) / (x1 - x0), 0.0, 1.0);
+    return y0 + share * (y1 - y0);
+  };
+}
+
+TableFile file_of(const Section& section, const TableReader& tables, std::string_view key, const Value& value,
+                  std::string& column) {
+  std::string file;
+  for (std::size_t i = 0; i < value.items.size(); ++i) {
+    std::string* const text = value.names[i] == "file" ? &file : value.names[i] == "column" ? &column : nullptr;
+    if (text && value.items[i].kind == Value::Kind::text) *text = value.items[i].text;
+  }
+  if (file.empty() || column.empty() || value.items.size() != 2)
+    throw section.refuse(key, "not a column of a table",
+                         "a number, a formula, or { file = \"gouge.csv\", column = \"a\" }");
+  return {section, tables, key, file};
+}
+
 }  // namespace
 
-double FrictionUnits::normal_stress_in_si() {
+Interface interface_of(const Document& document, double reach) {
+  Interface interface;
+  Extent& e = interface.extent;
+  interface.plane = is_plane(document);
+  const Section section(document, interface.plane ? "plane" : "domain");
+  const auto number = [&section](std::string_view key) -> std::optional<double> {
+    try {
+      return section.number(key);
+    } catch (const InputError&) {  // the reader of the table reports it
+      return std::nullopt;
+    }
+  };
+  if (interface.plane) {
+    interface.ratio = number("wave_speed_ratio").value_or(1);
+    for (const auto& [key, value] :
+         {std::pair{"left", &e.left}, {"right", &e.right}, {"bottom", &e.bottom}, {"top", &e.top}})
+      *value = number(key).value_or(0);
+    return interface;
+  }
+  const std::optional<double> left = number("left"), right = number("right");
+  const double far = reach > 0 ? 2 * reach : 7;
+  e.left = left.value_or(right.value_or(0) - far);
+  e.right = right.value_or(left.value_or(0) + far);
+  return interface;
+}
+
+FrictionUnits::FrictionUnits(const Section& friction, const TableReader& tables, const Interface& interface)
+    : friction_(friction), tables_(tables), interface_(interface) {
+  const Value* const pressed = friction.find(normal_stress);
+  if (!pressed || !varies(*pressed)) return;
+  const friction::AlongInterface along =
+      in_range(read_along(normal_stress, *pressed, ModelUnit::none, {.least = 0, .without_least = true}));
+  vary_ = true;
+  largest_normal_stress_ = along.most;
+  share_ = {[at = along.at, most = along.most](double x, double y) { return at(x, y) / most; },
+            along.least / along.most, 1};
+}
+
+/// The values of a key that varies.
+FrictionUnits::At FrictionUnits::read_along(std::string_view key, const Value& value, ModelUnit unit,
+                                            const Limits& limits) const {
+  friction_.require_units(key);
+  const std::string name = "friction." + std::string(key);
+  const double ratio = interface_.ratio;
+  if (value.kind == Value::Kind::text) {
+    const std::vector<std::string_view> variables =
+        interface_.plane ? std::vector<std::string_view>{"x", "y"} : std::vector<std::string_view>{"x"};
+    return CheckedFormula(friction_, key, value.text, variables, name, limits, unit, ratio);
+  }
+  std::string column;
+  const TableFile file = file_of(friction_, tables_, key, value, column);
+  const Column values{column, limits, friction_.in_file(unit)};
+  if (!interface_.plane) return along_rows(file, values);
+  return [grid = read_grid(file, values, interface_.extent), ratio](double x, double y) { return grid(x, y * ratio); };
+}
+
+/// With its range on a grid of positions, so that a formula which fails does so before the run.
+friction::AlongInterface FrictionUnits::in_range(At at) const {
+  friction::AlongInterface along{std::move(at), HUGE_VAL, -HUGE_VAL};
+  const Extent& e = interface_.extent;
+  const int rows = interface_.plane ? 101 : 1, columns = interface_.plane ? 101 : 2001;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const double x = e.left + (e.right - e.left) * i / (columns - 1);
+      const double y = interface_.plane ? e.bottom + (e.top - e.bottom) * j / (rows - 1) : 0;
+      const double value = along.at(x, y / interface_.ratio);
+      along.least = std::fmin(along.least, value);
+      along.most = std::fmax(along.most, value);
+    }
+  return along;
+}
+
+double FrictionUnits::normal_stress_in_si() const {
+  if (share_) return largest_normal_stress_;
   const double pressed = friction_.quantity(normal_stress, *friction_.find(normal_stress), medium::Dimension::pressure);
   if (!(pressed > 0)) throw friction_.refuse(normal_stress, "not positive", "> 0");
   return pressed;
@@ -54,7 +177,7 @@ double FrictionUnits::normal_stress_in_si() {
 
 ModelUnit FrictionUnits::unit_of(const Parameter& p) { return model_unit(p.dimension); }
 
-double FrictionUnits::si_of(const Parameter& p) {
+double FrictionUnits::si_of(const Parameter& p) const {
   if (p.dimension == Dimension::pressure) {
     if (!friction_.has(normal_stress))
       throw friction_.refuse(p.name, "in SI units it needs friction.normal_stress",
@@ -64,7 +187,28 @@ double FrictionUnits::si_of(const Parameter& p) {
   return friction_.si(p.name, model_unit(p.dimension));
 }
 
-double FrictionUnits::in_model(const Parameter& p) {
+friction::AlongInterface FrictionUnits::in_model(const Parameter& p) const {
+  const Limits limits{.least = p.least, .most = p.most, .without_least = p.without_least};
+  const auto constant = [](double value) {
+    return friction::AlongInterface{[value](double, double) { return value; }, value, value};
+  };
+  const Value* const value = friction_.find(p.name);
+  if (value && varies(*value)) {
+    const bool force = p.dimension == Dimension::force, coefficient = force && friction_.has(normal_stress);
+    const bool in_units = !coefficient && (!force || p.unit == friction::force_unit);
+    const At along = read_along(p.name, *value, in_units ? unit_of(p) : ModelUnit::none, limits);
+    if (!coefficient) return in_range(along);
+    return in_range(
+        [along, unit = normal_stress_in_si() / si_of(p)](double x, double y) { return unit * along(x, y); });
+  }
+  const double number = uniform(p);
+  if (!limits.hold(number)) throw friction_.refuse(p.name, "out of range", limits.text());
+  const bool stress = value && value->kind == Value::Kind::text && p.dimension == Dimension::force;
+  if (!share_ || !stress) return constant(number);
+  return in_range([share = share_->at, number](double x, double y) { return number / share(x, y); });
+}
+
+double FrictionUnits::uniform(const Parameter& p) const {
   const Value* const value = friction_.find(p.name);
   const bool force = p.dimension == Dimension::force, number = !value || value->kind == Value::Kind::number;
   const bool coefficient = force && number && friction_.has(normal_stress);
@@ -130,7 +274,7 @@ friction::Curve curve_of_formula(const Section& section) {
 friction::Curve curve_of_table(const Section& section, const TableReader& tables) {
   const Column w{"w", {.least = 0, .most = farthest}, section.in_file(ModelUnit::slip_velocity)};
   const Column f{"f", {.least = 0, .most = largest_stress}, force_in_file(section)};
-  const auto curve = std::make_shared<const MonotoneCurve>(read_rows(section, tables, w, f));
+  const auto curve = std::make_shared<const MonotoneCurve>(TableFile(section, tables).rows(w, f));
   if (curve->first() != 0)
     throw section.refuse("file", "the table begins at w = " + shortest(curve->first()),
                          "a first row with w = 0; its f is the force that the interface withstands at rest");
@@ -145,7 +289,7 @@ friction::Curve curve_of_table(const Section& section, const TableReader& tables
 
 /// The curve f(w) that [friction] gives: by a formula, or by a table in a file. Null for laws that take none.
 /// \throws InputError where it is no force at the speeds tried; the curve itself throws it at speeds found later.
-friction::Curve read_curve(const Section& section, const TableReader& tables, friction::CurveSource source) {
+friction::Curve read_curve(const Section& section, const TableReader& tables, friction::CurveSource source, bool vary) {
   const bool formula = source == friction::CurveSource::formula, table = source == friction::CurveSource::table;
   for (const auto& [key, wanted, law] :
        {std::tuple("formula", formula, "formula"), std::tuple("file", table, "table")}) {
@@ -153,10 +297,8 @@ friction::Curve read_curve(const Section& section, const TableReader& tables, fr
     if (section.has(key) && !wanted) throw section.refuse(key, "contradicts friction.law", with);
     if (!section.has(key) && wanted) throw section.refuse(key, "missing", std::string("friction.law needs it"));
   }
-  const Value* const coefficient = section.find("coefficient");
-  const bool along_plane = coefficient && coefficient->stands_for_formula;
-  if (!formula && !table && !along_plane && section.in_si())
-    throw section.refuse("units", "concerns formula and file only", "texts with units, such as \"1 um/s\"");
+  if (!formula && !table && !vary && section.in_si())
+    throw section.refuse("units", "concerns formulas and files only", "texts with units, such as \"1 um/s\"");
   if (formula) return curve_of_formula(section);
   if (table) return curve_of_table(section, tables);
   return {};
@@ -204,12 +346,10 @@ void refuse_keys_of_others(const Section& section, const Definition& law) {
 /// Whether the parameter is a force, which the user may give as a friction coefficient and a normal stress.
 bool has_coefficient(const Parameter& p) { return p.unit == friction::force_unit; }
 
-double read_parameter(const Section& section, const Parameter& p, FrictionUnits& units) {
-  if (!p.words.empty()) return section.has(p.name) ? static_cast<double>(section.word(p.name)) : p.value;
-  const Limits limits{.least = p.least, .most = p.most, .without_least = p.without_least};
-  const double value = units.in_model(p);
-  if (!limits.hold(value)) throw section.refuse(p.name, "out of range", limits.text());
-  return value;
+friction::AlongInterface read_parameter(const Section& section, const Parameter& p, const FrictionUnits& units) {
+  if (p.words.empty()) return units.in_model(p);
+  const double word = section.has(p.name) ? static_cast<double>(section.word(p.name)) : p.value;
+  return {[word](double, double) { return word; }, word, word};
 }
 
 /// Checks that keys of contacts and pores which need each other are given together.
@@ -237,7 +377,7 @@ void check_contacts(const Section& section, const friction::Contacts& contacts, 
 void read_friction(const Document& document, const TableReader& tables, Scenario& scenario) {
   const std::vector<const Parameter*> parameters = all_parameters();
   const Section section(document, "friction");
-  FrictionUnits units(section);
+  const FrictionUnits units(section, tables, interface_of(document, scenario.initial.reach));
   const bool named = section.has("law");
   const Definition& law = named ? *friction::laws()[section.word("law")] : scenario.friction.definition();
   Errors errors;
@@ -245,8 +385,13 @@ void read_friction(const Document& document, const TableReader& tables, Scenario
     if (section.has(p->name) && law.find(p->name) == nullptr)
       errors.attempt([&] { read_parameter(section, *p, units); });
   std::vector<double> values;
+  std::vector<std::pair<std::string_view, friction::AlongInterface>> varying;
   for (const Parameter& p : law.parameters)
-    errors.attempt([&] { values.push_back(read_parameter(section, p, units)); });
+    errors.attempt([&] {
+      const friction::AlongInterface along = read_parameter(section, p, units);
+      values.push_back(along.most);
+      if (along.least < along.most) varying.emplace_back(p.name, along);
+    });
   errors.throw_if_any();
   Closure closure = scenario.friction.closure();
   section.read("closure", closure);
@@ -259,7 +404,16 @@ void read_friction(const Document& document, const TableReader& tables, Scenario
   for (const Parameter& p : law.parameters)
     if (!p.if_missing.empty() && !section.has(p.name))
       scenario.warnings.push_back("friction." + std::string(p.name) + " is not given and " + std::string(p.if_missing));
-  scenario.friction = friction::Friction(law, std::move(values), closure, read_curve(section, tables, law.curve));
+  friction::Friction friction(law, std::move(values), closure,
+                              read_curve(section, tables, law.curve, units.vary() || !varying.empty()));
+  try {
+    if (const auto& share = units.share_of_normal_stress(); share && share->least < share->most)
+      friction = friction.under(*share);
+    for (const auto& [parameter, along] : varying) friction = friction.with(parameter, along);
+  } catch (const InputError& error) {
+    throw section.refuse(error.complaint().key, error.complaint().problem, error.complaint().allowed);
+  }
+  scenario.friction = std::move(friction);
   check_contacts(section, scenario.friction.contacts(), scenario);
 }
 

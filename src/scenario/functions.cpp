@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <memory>
 
 #include "foundation/text/digits.hpp"
 
@@ -123,15 +125,10 @@ std::string in_words(const Column& column) {
 
 }  // namespace
 
-std::vector<std::vector<double>> read_columns(const Section& section, const TableReader& tables,
-                                              const std::vector<Column>& columns) {
-  const auto refuse = [&](const std::string& problem, const std::string& allowed) {
-    return section.refuse("file", problem, allowed);
-  };
-  const std::string file = *section.text("file");
+std::vector<std::vector<double>> TableFile::columns(const std::vector<Column>& columns) const {
   // Relative to the scenario, wherever the program was started; an absolute path stays what it is.
-  const std::string path = (std::filesystem::path(section.file()).parent_path() / file).string();
-  if (file.empty() || path.find('\0') != std::string::npos) throw refuse("not a path", "a file");
+  const std::string path = (std::filesystem::path(section.file()).parent_path() / name).string();
+  if (name.empty() || path.find('\0') != std::string::npos) throw refuse("not a path", "a file");
   if (!tables) throw refuse("a table cannot be read here", "a formula");
   std::vector<std::string> names;
   names.reserve(columns.size());
@@ -150,20 +147,96 @@ std::vector<std::vector<double>> read_columns(const Section& section, const Tabl
   return rows;
 }
 
-std::vector<std::pair<double, double>> read_rows(const Section& section, const TableReader& tables, const Column& x,
-                                                 const Column& y) {
+std::vector<std::pair<double, double>> TableFile::rows(const Column& x, const Column& y) const {
   std::vector<std::pair<double, double>> rows;
-  for (const std::vector<double>& row : read_columns(section, tables, {x, y})) {
+  for (const std::vector<double>& row : columns({x, y})) {
     const std::string place =
         "row " + std::to_string(rows.size() + 1) + ": " + x.name + " = " + shortest(row[0] * x.unit);
     const std::string increasing = x.name + " strictly increasing";
-    if (!rows.empty() && !(row[0] > rows.back().first))
-      throw section.refuse("file", place + " does not increase", increasing);
+    if (!rows.empty() && !(row[0] > rows.back().first)) throw refuse(place + " does not increase", increasing);
     if (!rows.empty() && !(row[0] - rows.back().first > 1e-90))  // the slope between two rows must be a number
-      throw section.refuse("file", place + " is too close to the row before", increasing);
+      throw refuse(place + " is too close to the row before", increasing);
     rows.emplace_back(row[0], row[1]);
   }
   return rows;
+}
+
+namespace {
+
+/// A curve along x for each y.
+struct Grid {
+  std::vector<double> y;
+  std::vector<MonotoneCurve> along_x;
+
+  /// The four rows around y, or fewer at the ends, give the curve along y.
+  double operator()(double x, double at) const {
+    const auto after = std::upper_bound(y.begin() + 1, y.end() - 1, at);
+    const auto next = static_cast<std::size_t>(after - y.begin());
+    const std::size_t first = next >= 2 ? next - 2 : 0, last = std::min(next + 2, y.size());
+    std::vector<std::pair<double, double>> points;
+    points.reserve(last - first);
+    for (std::size_t j = first; j < last; ++j) points.emplace_back(y[j], along_x[j](x));
+    return MonotoneCurve(std::move(points))(at);
+  }
+};
+
+std::vector<double> ascending(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+std::size_t index_of(const std::vector<double>& values, double value) {
+  return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+}
+
+Grid grid_of(const TableFile& file, const std::vector<std::vector<double>>& rows) {
+  std::vector<double> x, y;
+  for (const std::vector<double>& row : rows) {
+    x.push_back(row[0]);
+    y.push_back(row[1]);
+  }
+  x = ascending(std::move(x));
+  y = ascending(std::move(y));
+  if (x.size() < 2 || y.size() < 2)
+    throw file.refuse(std::to_string(x.size()) + " x and " + std::to_string(y.size()) + " y", "at least two of each");
+  std::vector<double> values(x.size() * y.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const std::vector<double>& row : rows) {
+    double& value = values[index_of(y, row[1]) * x.size() + index_of(x, row[0])];
+    if (!std::isnan(value))
+      throw file.refuse("x = " + shortest(row[0]) + ", y = " + shortest(row[1]) + " is given twice", "once");
+    value = row[2];
+  }
+  Grid grid{.y = y, .along_x = {}};
+  for (std::size_t j = 0; j < y.size(); ++j) {
+    std::vector<std::pair<double, double>> points;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (std::isnan(values[j * x.size() + i]))
+        throw file.refuse("x = " + shortest(x[i]) + ", y = " + shortest(y[j]) + " is missing",
+                          "a row for each pair of an x and a y");
+      points.emplace_back(x[i], values[j * x.size() + i]);
+    }
+    grid.along_x.emplace_back(std::move(points));
+  }
+  return grid;
+}
+
+}  // namespace
+
+std::function<double(double, double)> read_grid(const TableFile& file, const Column& value, const Extent& extent) {
+  const Limits place{.least = -farthest, .most = farthest};
+  const double length = file.section.in_file(ModelUnit::position);
+  const auto rows = file.columns({{"x", place, length}, {"y", place, length}, value});
+  const auto grid = std::make_shared<const Grid>(grid_of(file, rows));
+  const MonotoneCurve& row = grid->along_x.front();
+  const auto range = [](double from, double to) { return shortest(from) + " to " + shortest(to); };
+  if (!(row.first() <= extent.left && row.last() >= extent.right && grid->y.front() <= extent.bottom &&
+        grid->y.back() >= extent.top))
+    throw file.refuse(
+        "the grid has x = " + range(row.first(), row.last()) + ", y = " + range(grid->y.front(), grid->y.back()) +
+            " and does not cover the plane",
+        "a grid over x = " + range(extent.left, extent.right) + ", y = " + range(extent.bottom, extent.top));
+  return [grid](double x, double y) { return (*grid)(x, y); };
 }
 
 }  // namespace slipfront::scenario

@@ -2,7 +2,9 @@
 /// \file
 /// Functions that a scenario gives: formulas, and smooth curves through the points of a table.
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -65,13 +67,36 @@ struct Column {
   double unit = 1;  ///< the unit of the model in the unit of the file
 };
 
-/// The rows, in units of the model, of the table file that the key "file" of a section names, relative to the scenario.
-/// \throws InputError for a number out of its limits; what `tables` throws.
-std::vector<std::vector<double>> read_columns(const Section& section, const TableReader& tables,
-                                              const std::vector<Column>& columns);
+/// A table file that a key of a section names, relative to the scenario.
+struct TableFile {
+  /// The file that the key "file" names.
+  TableFile(const Section& of, const TableReader& reader)
+      : section(of), tables(reader), key("file"), name(*of.text("file")) {}
+  TableFile(const Section& of, const TableReader& reader, std::string_view named_by, std::string file)
+      : section(of), tables(reader), key(named_by), name(std::move(file)) {}
 
-/// The rows of two columns: two or more, x strictly increasing. \throws InputError; what `tables` throws.
-std::vector<std::pair<double, double>> read_rows(const Section& section, const TableReader& tables, const Column& x,
-                                                 const Column& y);
+  InputError refuse(const std::string& problem, const std::string& allowed) const {
+    return section.refuse(key, problem, allowed);
+  }
+  /// The rows in units of the model. \throws InputError for a number out of its limits; what `tables` throws.
+  std::vector<std::vector<double>> columns(const std::vector<Column>& columns) const;
+  /// The rows of two columns: two or more, x strictly increasing. \throws InputError; what `tables` throws.
+  std::vector<std::pair<double, double>> rows(const Column& x, const Column& y) const;
+
+  const Section& section;
+  const TableReader& tables;
+  std::string_view key;
+  std::string name;
+};
+
+/// A rectangle of x and y of the scenario; a line has the height 0.
+struct Extent {
+  double left = 0, right = 0, bottom = 0, top = 0;
+};
+
+/// The values of a column at points (x, y), one row for each pair of an x and a y. Between the points they are monotone
+/// along x and y (Fritsch and Carlson), so that they never leave the range of the points around.
+/// \throws InputError if the points do not cover the extent; what TableFile throws.
+std::function<double(double x, double y)> read_grid(const TableFile& file, const Column& value, const Extent& extent);
 
 }  // namespace slipfront::scenario

@@ -36,7 +36,7 @@ double read_stress(const Section& section, std::string_view key) {
 RawStress stress_of_table(const Section& section, const TableReader& tables) {
   const Column place{"x", {.least = -farthest, .most = farthest}, section.in_file(ModelUnit::position)};
   const Column stress{"stress", {.least = 0, .most = largest_stress}, section.in_file(ModelUnit::stress)};
-  const auto curve = std::make_shared<const MonotoneCurve>(read_rows(section, tables, place, stress));
+  const auto curve = std::make_shared<const MonotoneCurve>(TableFile(section, tables).rows(place, stress));
   const Complaint where = section.where("file");
   const auto at = [curve, where](double x) {
     if (x >= curve->first() && x <= curve->last()) return (*curve)(x);
@@ -149,8 +149,7 @@ void add_contacts_at_start(Scenario& scenario) {
 double holding_force(const friction::Friction& friction) {
   double held = std::fmax(friction.strength_at_rest(), friction.parameter("strength"));
   if (friction.definition().curve != friction::CurveSource::none) return held;
-  std::vector<double> state(friction.state_size());
-  friction.evolution().start(state);
+  const std::vector<double> state = friction.state_at_start();
   double top = 0;
   constexpr double slowest = 1e-12, fastest = 10;
   constexpr int steps = 120;

@@ -24,7 +24,7 @@ namespace {
 std::function<double(double, double)> read_radial(const Section& section, const TableReader& tables, double ratio) {
   const Column radius{"r", {.least = 0, .most = farthest}, section.in_file(ModelUnit::position)};
   const Column slip{"slip", {.least = 0}, section.in_file(ModelUnit::slip)};
-  const auto rows = read_rows(section, tables, radius, slip);
+  const auto rows = TableFile(section, tables).rows(radius, slip);
   if (rows.back().second != 0)
     throw section.refuse("file", "its last row has the slip " + shortest(rows.back().second),
                          "0 in the last row, where the rupture ends");
@@ -36,86 +36,14 @@ std::function<double(double, double)> read_radial(const Section& section, const 
   };
 }
 
-/// A curve along x for each y.
-struct Grid {
-  std::vector<double> y;
-  std::vector<MonotoneCurve> along_x;
-
-  /// The four rows around y, or fewer at the ends, give the curve along y.
-  double operator()(double x, double at) const {
-    const auto after = std::upper_bound(y.begin() + 1, y.end() - 1, at);
-    const auto next = static_cast<std::size_t>(after - y.begin());
-    const std::size_t first = next >= 2 ? next - 2 : 0, last = std::min(next + 2, y.size());
-    std::vector<std::pair<double, double>> points;
-    points.reserve(last - first);
-    for (std::size_t j = first; j < last; ++j) points.emplace_back(y[j], along_x[j](x));
-    return MonotoneCurve(std::move(points))(at);
-  }
-};
-
-std::vector<double> ascending(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
-}
-
-std::size_t index_of(const std::vector<double>& values, double value) {
-  return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
-}
-
-Grid grid_of(const Section& section, const std::vector<std::vector<double>>& rows) {
-  std::vector<double> x, y;
-  for (const std::vector<double>& row : rows) {
-    x.push_back(row[0]);
-    y.push_back(row[1]);
-  }
-  x = ascending(std::move(x));
-  y = ascending(std::move(y));
-  if (x.size() < 2 || y.size() < 2)
-    throw section.refuse("file", std::to_string(x.size()) + " x and " + std::to_string(y.size()) + " y",
-                         "at least two of each");
-  std::vector<double> slip(x.size() * y.size(), std::numeric_limits<double>::quiet_NaN());
-  for (const std::vector<double>& row : rows) {
-    double& value = slip[index_of(y, row[1]) * x.size() + index_of(x, row[0])];
-    if (!std::isnan(value))
-      throw section.refuse("file", "x = " + shortest(row[0]) + ", y = " + shortest(row[1]) + " is given twice", "once");
-    value = row[2];
-  }
-  Grid grid{.y = y, .along_x = {}};
-  for (std::size_t j = 0; j < y.size(); ++j) {
-    std::vector<std::pair<double, double>> points;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      if (std::isnan(slip[j * x.size() + i]))
-        throw section.refuse("file", "x = " + shortest(x[i]) + ", y = " + shortest(y[j]) + " is missing",
-                             "a row for each pair of an x and a y");
-      points.emplace_back(x[i], slip[j * x.size() + i]);
-    }
-    grid.along_x.emplace_back(std::move(points));
-  }
-  return grid;
-}
-
-/// The slip of the grid that the key "file" names, with columns x, y and slip: one row for each pair of an x and a y.
-/// Between the points slip is monotone along x and y (Fritsch and Carlson), so that it is never negative.
-std::function<double(double, double)> read_grid(const Section& section, const TableReader& tables, const Plane& plane) {
-  const Limits place{.least = -farthest, .most = farthest};
-  const double length = section.in_file(ModelUnit::position);
-  const auto rows = read_columns(
-      section, tables,
-      {{"x", place, length}, {"y", place, length}, {"slip", {.least = 0}, section.in_file(ModelUnit::slip)}});
-  const auto grid = std::make_shared<const Grid>(grid_of(section, rows));
+/// The slip of the grid that the key "file" names, with columns x, y and slip.
+std::function<double(double, double)> read_slip_grid(const Section& section, const TableReader& tables,
+                                                     const Plane& plane) {
   const plane::Problem& p = plane.problem;
   const double ratio = plane.wave_speed_ratio;
-  const MonotoneCurve& row = grid->along_x.front();
-  const auto range = [](double from, double to) { return shortest(from) + " to " + shortest(to); };
-  if (!(row.first() <= p.left && row.last() >= p.right && grid->y.front() <= p.bottom * ratio &&
-        grid->y.back() >= p.top * ratio))
-    throw section.refuse(
-        "file",
-        "the grid has x = " + range(row.first(), row.last()) + ", y = " + range(grid->y.front(), grid->y.back()) +
-            " and does not cover the plane",
-        "a grid over x = " + range(p.left, p.right) + ", y = " + range(p.bottom * ratio, p.top * ratio));
-  return [grid, ratio](double x, double y) { return (*grid)(x, y * ratio); };
+  const auto grid = read_grid(TableFile(section, tables), {"slip", {.least = 0}, section.in_file(ModelUnit::slip)},
+                              {p.left, p.right, p.bottom * ratio, p.top * ratio});
+  return [grid, ratio](double x, double y) { return grid(x, y * ratio); };
 }
 
 void refuse_other_tables(const Document& document) {
@@ -158,7 +86,7 @@ std::function<double(double, double)> read_slip(const Document& document, const 
   read_profile(section, true, initial);
   const double ratio = plane.wave_speed_ratio;
   if (initial.profile == ProfileKind::radial) return read_radial(section, tables, ratio);
-  if (initial.profile == ProfileKind::grid) return read_grid(section, tables, plane);
+  if (initial.profile == ProfileKind::grid) return read_slip_grid(section, tables, plane);
   const Value& text = *section.find("formula");  // [initial] formula is a stress elsewhere, and so may have its unit
   if (text.kind != Value::Kind::text && text.kind != Value::Kind::number)
     throw section.refuse("formula", "neither a text nor a number", "a formula in quotes");
@@ -166,12 +94,11 @@ std::function<double(double, double)> read_slip(const Document& document, const 
   return CheckedFormula(section, "formula", text.text, {"x", "y"}, "the slip", {.least = 0}, ModelUnit::slip, ratio);
 }
 
-/// The other formulas: where the interface is held, contact, forcing, and the coefficient of viscous friction.
-void read_formulas(const Document& document, const std::string& coefficient, Scenario& scenario) {
+/// The other formulas: where the interface is held, contact and forcing.
+void read_formulas(const Document& document, Scenario& scenario) {
   plane::Problem& p = scenario.plane->problem;
   const double ratio = scenario.plane->wave_speed_ratio;
-  const Section plane(document, "plane"), interface(document, "interface"), forcing(document, "forcing"),
-      friction(document, "friction");
+  const Section plane(document, "plane"), interface(document, "interface"), forcing(document, "forcing");
   if (plane.has("fixed"))
     p.fixed =
         CheckedFormula(plane, "fixed", *plane.formula("fixed"), {"x", "y"}, "plane.fixed", {}, ModelUnit::none, ratio);
@@ -183,10 +110,6 @@ void read_formulas(const Document& document, const std::string& coefficient, Sce
     scenario.forcing = *forcing.formula("formula");
     p.forcing = read_forcing(forcing, {"x", "y", "t"}, ratio);
   }
-  if (!coefficient.empty())
-    scenario.friction =
-        scenario.friction.with("coefficient", CheckedFormula(friction, "coefficient", coefficient, {"x", "y"},
-                                                             "the coefficient", {.least = 0}, ModelUnit::none, ratio));
 }
 
 void read_nucleation(const Document& document, Scenario& scenario) {
@@ -216,7 +139,6 @@ void try_on_plane(const Plane& plane, double end) {
     for (int i = 0; i < samples; ++i) {
       const double x = p.left + (p.right - p.left) * i / (samples - 1),
                    y = p.bottom + (p.top - p.bottom) * j / (samples - 1);
-      p.friction.factor(x, y);
       for (const auto* function : {&p.slip, &p.fixed, &p.contact})
         if (*function) (*function)(x, y);
       if (!p.forcing) continue;
@@ -229,27 +151,7 @@ void try_on_plane(const Plane& plane, double end) {
 
 bool is_plane(const Document& document) { return document.tables.count("plane") > 0; }
 
-std::string take_coefficient(Document& document) {
-  const auto friction = document.tables.find("friction");
-  if (friction == document.tables.end()) return {};
-  auto& values = friction->second.values;
-  const auto found = values.find("coefficient");
-  if (found == values.end() || found->second.kind != Value::Kind::text) return {};
-  const auto law = values.find("law");
-  if (law != values.end() && law->second.text != "viscous" && is_quantity(found->second.text)) return {};
-  const InputError refusal =
-      Section(document, "friction")
-          .refuse("coefficient", "a formula, which only viscous friction may have", "a number, or law = \"viscous\"");
-  std::string formula = std::exchange(found->second.text, std::string("1"));
-  found->second.kind = Value::Kind::number;
-  found->second.number = 1;
-  found->second.stands_for_formula = true;
-  if (law == values.end() || law->second.text != "viscous") throw refusal;
-  return formula;
-}
-
-void read_plane(const Document& document, const TableReader& tables, const std::string& coefficient,
-                Scenario& scenario) {
+void read_plane(const Document& document, const TableReader& tables, Scenario& scenario) {
   refuse_other_tables(document);
   const Section section(document, "plane");
   Plane& plane = scenario.plane.emplace();
@@ -261,7 +163,7 @@ void read_plane(const Document& document, const TableReader& tables, const std::
   section.read("edges", plane.problem.edges);
   read_edges(section, plane);
   plane.problem.slip = read_slip(document, tables, plane, scenario.initial);
-  read_formulas(document, coefficient, scenario);
+  read_formulas(document, scenario);
   plane.problem.friction = scenario.friction;
   plane.problem.hold = scenario.initial.hold;
   read_nucleation(document, scenario);

@@ -205,8 +205,8 @@ RawStress read_tables(const Document& document, const TableReader& tables, Scena
     attempt("initial", [&] {
       if (!is_plane(document)) raw = read_line(document, tables, scenario);
     });
-  attempt("friction", [&] { read_friction(document, tables, scenario); });
   attempt("domain", [&] { read_domain(document, scenario.domain); });
+  attempt("friction", [&] { read_friction(document, tables, scenario); });
   attempt("time", [&] { Section(document, "time").read("end", scenario.end); });
   attempt("pulse", [&] { read_pulse(document, scenario.pulse); });
   attempt("chain", [&] { read_chain(document, scenario.chain); });
@@ -223,8 +223,6 @@ Scenario read(std::string_view text, const std::string& file, const std::vector<
   Errors errors = document.errors;
   Scenario scenario;
   errors.attempt([&] { scenario.title = read_title(document); });
-  std::string coefficient;
-  if (is_plane(document)) errors.attempt([&] { coefficient = take_coefficient(document); });
   scenario.file = file;
   scenario.text = document.text;
   scenario.overrides = overrides;
@@ -234,7 +232,7 @@ Scenario read(std::string_view text, const std::string& file, const std::vector<
   const RawStress raw = read_tables(document, tables, scenario, errors);
   errors.throw_if_any();
   if (is_plane(document)) {
-    read_plane(document, tables, coefficient, scenario);
+    read_plane(document, tables, scenario);
     read_plane_output(document, *scenario.plane);
   } else {
     refuse_nucleation(document);

@@ -7,8 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "scenario/functions.hpp"
 #include "scenario/section.hpp"
-#include "slipfront/friction/law.hpp"
+#include "slipfront/friction/friction.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::scenario {
@@ -21,36 +22,54 @@ void read_medium(const Document& document, medium::Constants& medium);
 std::optional<double> stiffness_of(const Section& section);
 ModelUnit unit_of_stiffness(const Section& section);
 
+/// Where friction acts, in x and y of the scenario.
+struct Interface {
+  Extent extent;
+  bool plane = false;
+  double ratio = 1;  ///< y of the scenario over y of the problem
+};
+/// `reach` is how far the initial state extends, if [domain] does not tell the extent.
+Interface interface_of(const Document& document, double reach);
+
 /// Parameters of friction as a laboratory gives them, in the model's units (docs/friction.md, "In SI units"): a text
-/// with a unit, or, where [friction] has a `normal_stress`, forces as friction coefficients.
+/// with a unit, or, where [friction] has a `normal_stress`, forces as friction coefficients. A parameter and the normal
+/// stress may vary: by a formula of x (and y on a plane), or by a column of a table.
 class FrictionUnits {
  public:
-  explicit FrictionUnits(const Section& friction) : friction_(friction) {}
+  FrictionUnits(const Section& friction, const TableReader& tables, const Interface& interface);
 
-  /// The value of a parameter, or its default, which counts as a friction coefficient where the others do. \throws
-  /// InputError that names the key, or the constant of [medium] that it needs.
-  double in_model(const friction::Parameter& parameter);
+  /// The value of a parameter, or its default, which counts as a friction coefficient where the others do; of one that
+  /// varies its range. \throws InputError that names the key, the position if it varies, or the constant of [medium]
+  /// that it needs.
+  friction::AlongInterface in_model(const friction::Parameter& parameter) const;
+  /// The normal stress over its largest value, if it varies.
+  const std::optional<friction::AlongInterface>& share_of_normal_stress() const { return share_; }
+  /// Whether any key varies.
+  bool vary() const { return vary_; }
   /// The unit of a parameter; none for a number, a share of the normal stress, and so on.
   static ModelUnit unit_of(const friction::Parameter& parameter);
 
  private:
-  double si_of(const friction::Parameter& parameter);
-  double normal_stress_in_si();
+  using At = std::function<double(double, double)>;
+  double si_of(const friction::Parameter& parameter) const;
+  double uniform(const friction::Parameter& parameter) const;
+  double normal_stress_in_si() const;
+  At read_along(std::string_view key, const Value& value, ModelUnit unit, const Limits& limits) const;
+  friction::AlongInterface in_range(At at) const;
 
   const Section& friction_;
+  const TableReader& tables_;
+  Interface interface_;
+  bool vary_ = false;
+  double largest_normal_stress_ = 0;  ///< in Pa, if it varies
+  std::optional<friction::AlongInterface> share_;
 };
 
 /// Whether the scenario is on a plane: it has the table [plane].
 bool is_plane(const Document& document);
 
-/// On a plane, the coefficient of viscous friction may be a formula of x and y. Takes that formula from the document,
-/// where the number 1 replaces it, and returns it; empty if there is none. \throws InputError for a formula of another
-/// law.
-std::string take_coefficient(Document& document);
-
 /// Reads [plane] and all formulas of x and y, and tries them over the plane. \throws InputError.
-void read_plane(const Document& document, const TableReader& tables, const std::string& coefficient,
-                Scenario& scenario);
+void read_plane(const Document& document, const TableReader& tables, Scenario& scenario);
 
 /// Reads the keys of [output] about a plane. \throws InputError for a probe outside the plane.
 void read_plane_output(const Document& document, Plane& plane);

@@ -147,7 +147,12 @@ void Section::check_units_key(const Key& key, const Value& value) const {
     return check_unit(key.name, constant, key.scale);
   }
   if (key.type == KeyType::formula && key.scale != ModelUnit::none && is_quantity(value.text)) return;
-  throw refuse(key.name, "no units are given, in a scenario in SI units (" + document_.in_si + ")",
+  require_units(key.name);
+}
+
+void Section::require_units(std::string_view key) const {
+  if (document_.in_si.empty() || has("units")) return;
+  throw refuse(key, "no units are given, in a scenario in SI units (" + document_.in_si + ")",
                name_ + ".units = \"SI\" if it is in m, s and Pa; \"model\" if in the units of the model");
 }
 

@@ -83,6 +83,8 @@ class Section {
   std::string bound_as_written(std::string_view key, const Value& item, ModelUnit unit, double bound) const;
   /// Refuses a number without a unit in a scenario that has values with units. 0 needs no unit.
   void check_unit(std::string_view key, const Value& item, ModelUnit unit) const;
+  /// Refuses a formula or a file without the key "units" in a scenario that has values with units.
+  void require_units(std::string_view key) const;
 
  private:
   std::string limits_as_written(std::string_view key, const Value& item, ModelUnit unit, const Limits& limits) const;

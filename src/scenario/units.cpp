@@ -119,18 +119,25 @@ void add_table(const Document& document, std::string_view table, std::vector<Qua
   }
 }
 
-void add_friction(const Document& document, const friction::Definition& law, std::vector<Quantity>& all) {
+void add_friction(const Document& document, const TableReader& tables, const friction::Definition& law,
+                  std::vector<Quantity>& all) {
   const Section section(document, "friction");
-  FrictionUnits units(section);
+  const FrictionUnits units(section, tables, interface_of(document, 0));
   for (const friction::Parameter& p : law.parameters) {
     const Value* const value = section.find(p.name);
-    if (!value || p.dimension == friction::Dimension::number || !p.words.empty()) continue;
-    const double model = units.in_model(p);
+    if (!value || !p.words.empty()) continue;
+    const friction::AlongInterface along = units.in_model(p);
+    const bool varies = along.least < along.most;
+    if (p.dimension == friction::Dimension::number && !varies) continue;
     const ModelUnit unit = FrictionUnits::unit_of(p);
     const bool has_si = unit != ModelUnit::none && (unit != ModelUnit::force || p.unit == friction::force_unit);
-    all.push_back({"friction." + std::string(p.name), value->text, model, p.unit,
-                   has_si ? product(model, known_si(document.units, unit)) : std::nullopt,
-                   has_si ? medium::si_unit(dimension_of(unit)) : ""});
+    const auto add = [&](const char* which, double model) {
+      all.push_back({"friction." + std::string(p.name) + which, value->text, model, p.unit,
+                     has_si ? product(model, known_si(document.units, unit)) : std::nullopt,
+                     has_si ? medium::si_unit(dimension_of(unit)) : ""});
+    };
+    if (varies) add(", least", along.least);
+    add(varies ? ", largest" : "", along.most);
   }
 }
 
@@ -151,10 +158,9 @@ std::vector<Scale> scales_of(const medium::Constants& medium) {
 }
 
 std::vector<Quantity> quantities_of(std::string_view text, const std::string& file,
-                                    const std::vector<std::string>& overrides) {
+                                    const std::vector<std::string>& overrides, const TableReader& tables) {
   Document document = read_document(text, file, overrides);
   document.errors.throw_if_any();
-  if (is_plane(document)) take_coefficient(document);
   document.in_si = first_in_si(document);
   medium::Constants medium;
   read_medium(document, medium);
@@ -165,7 +171,7 @@ std::vector<Quantity> quantities_of(std::string_view text, const std::string& fi
       add_table(document, table, all);
     } else if (const auto law = Section(document, table).text("law")) {
       for (const friction::Definition* known : friction::laws())
-        if (known->name == *law) add_friction(document, *known, all);
+        if (known->name == *law) add_friction(document, tables, *known, all);
     }
   }
   return all;

@@ -80,7 +80,7 @@ TEST(PlaneAveraged, CoefficientAtAPositionMultipliesTheForce) {
   for (const auto closure : {friction::Closure::consistent, friction::Closure::paper}) {
     Problem whole = rings::problem(slip_of_rings()), shared = whole;
     whole.friction = friction::viscous(0.5, closure);
-    shared.friction = friction::viscous(1, closure).with("coefficient", [](double, double) { return 0.5; });
+    shared.friction = friction::viscous(1, closure).with("coefficient", {[](double, double) { return 0.5; }, 0.5, 0.5});
     AveragedSolver a(whole, {30, 1}), b(shared, {30, 1});
     a.advance_to(1, {});
     b.advance_to(1, {});
@@ -154,7 +154,7 @@ TEST(PlaneAveraged, AForceSuppliesItsWork) {
 /// Without symmetry: friction on one side. The direct run has the scale 160 and averages over boxes.
 TEST(PlaneAveraged, FrictionOnOneSideAgreesWithEveryLine) {
   Problem problem = rings::problem(slip_of_rings());
-  problem.friction = friction::viscous(1).with("coefficient", rings::friction_on_one_side);
+  problem.friction = friction::viscous(1).with("coefficient", {rings::friction_on_one_side, 0, 2});
   AveragedSolver solver(problem, {60, 64});
   solver.advance_to(1, {});
   const std::vector<double> slip =
@@ -175,7 +175,7 @@ TEST(PlaneAveraged, AnglesGiveTheRings) {
 
 TEST(PlaneAveraged, ResumesToTheSameBits) {
   Problem problem = rings::problem(slip_of_rings());
-  problem.friction = friction::viscous(1).with("coefficient", rings::friction_on_one_side);
+  problem.friction = friction::viscous(1).with("coefficient", {rings::friction_on_one_side, 0, 2});
   AveragedSolver whole(problem, {20, 32}), part(problem, {20, 32}), resumed(problem, {20, 32});
   whole.advance_to(0.5, {});
   part.advance_to(0.5, [] { return true; });  // one step

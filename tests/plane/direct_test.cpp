@@ -87,7 +87,7 @@ TEST(PlaneDirect, IsOfFourthOrder) {
 TEST(PlaneDirect, FrictionOnOneSideAgreesWithAnotherProgram) {
   const rings::Slip slip;
   Problem p = rings::problem(slip);
-  p.friction = friction::viscous(1).with("coefficient", rings::friction_on_one_side);
+  p.friction = friction::viscous(1).with("coefficient", {rings::friction_on_one_side, 0, 2});
   DirectSolver solver(p, {.scale = 40, .spacing = 0.25, .threads = 2});
   solver.advance_to(1, {});
   const std::vector<double> slips = solver.slip({polar(1.6, 90), polar(1.6, 0), polar(1.6, -90), polar(2, -90)});
@@ -102,8 +102,8 @@ TEST(PlaneDirect, AgreesWithTheAverages) {
   Problem p = rings::problem(slip);
   p.left = p.bottom = -2.6;
   p.right = p.top = 2.6;
-  p.friction =
-      friction::viscous(1).with("coefficient", [](double x, double) { return 0.5 + 0.3 * std::tanh(x / 0.2); });
+  p.friction = friction::viscous(1).with("coefficient",
+                                         {[](double x, double) { return 0.5 + 0.3 * std::tanh(x / 0.2); }, 0.2, 0.8});
   p.contact = [](double x, double y) { return 1 + 0.15 * std::exp(-((x - 1.7) * (x - 1.7) + y * y) / 0.1); };
   AveragedSolver averaged(p, {.loops = 60, .angles = 64});
   DirectSolver direct(p, {.scale = 60, .threads = 2});
@@ -122,7 +122,7 @@ Problem mixed() {
   p.left = p.bottom = -1.5;
   p.right = p.top = 1.5;
   p.slip = [](double x, double y) { return 2 * std::exp(-(x * x + y * y) / 0.3); };
-  p.friction = friction::viscous(1).with("coefficient", [](double x, double) { return 1 + x / 3; });
+  p.friction = friction::viscous(1).with("coefficient", {[](double x, double) { return 1 + x / 3; }, 0.5, 1.5});
   p.contact = [](double, double y) { return 1.1 + y / 30; };
   p.forcing = [](double x, double y, double t) { return 0.1 * std::cos(x + t) * std::exp(-y * y); };
   return p;
@@ -173,8 +173,7 @@ TEST(PlaneDirect, ResumesToTheSameBitsWithAnyThreads) {
 TEST(PlaneDirect, AMirroredProblemHasMirroredResults) {
   Problem mirrored = mixed();
   const Problem given = mixed();
-  mirrored.friction =
-      given.friction.with("coefficient", [f = given.friction](double x, double y) { return f.factor(-x, y); });
+  mirrored.friction = given.friction.with("coefficient", {[](double x, double) { return 1 - x / 3; }, 0.5, 1.5});
   mirrored.forcing = [f = given.forcing](double x, double y, double t) { return f(-x, y, t); };
   DirectSolver a(given, {.scale = 20}), b(mirrored, {.scale = 20});
   a.advance_to(0.3, {});

@@ -25,7 +25,7 @@ using rings::polar;
 Problem friction_on_one_side() {
   static const rings::Slip slip;
   Problem problem = rings::problem(slip);
-  problem.friction = friction::viscous(1).with("coefficient", rings::friction_on_one_side);
+  problem.friction = friction::viscous(1).with("coefficient", {rings::friction_on_one_side, 0, 2});
   return problem;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +18,12 @@ namespace slipfront::friction {
 
 struct Contacts;
 
-/// The value of a parameter at a position, in the unit of the model. y is 0 on a line.
-using AlongInterface = std::function<double(double x, double y)>;
+/// A parameter that varies: its value at a position, in the unit of the model, and the range of its values. y is 0 on a
+/// line.
+struct AlongInterface {
+  std::function<double(double x, double y)> at;
+  double least, most;
+};
 
 class Friction {
  public:
@@ -39,15 +44,18 @@ class Friction {
   Friction with(Closure closure) const;
   /// This friction with another value of a parameter.
   Friction with(std::string_view parameter, double value) const;
-  /// This friction with a parameter that varies. Solvers support this for the coefficient of viscous friction on a
-  /// plane.
-  Friction with(std::string_view parameter, AlongInterface value) const;
-  /// The force at a position over the force of the law with its own coefficient. It is 1 unless the coefficient varies.
-  double factor(double x, double y) const;
+  /// This friction with a parameter that varies. `parameter` then returns its largest value.
+  /// \throws InputError if friction of this law changes contacts or pores.
+  Friction with(std::string_view parameter, const AlongInterface& value) const;
+  /// This friction with a normal stress that varies, as a share of the one that the parameters assume. All forces are
+  /// proportional to it.
+  Friction under(const AlongInterface& share) const;
+  /// Whether a parameter or the normal stress varies.
+  bool varies() const { return !columns_.empty(); }
   /// Whether an average by this closure is defined. The paper's closure is undefined for laws with state variables.
-  bool defined_by(Closure closure) const { return closure == Closure::consistent || state_size() == 0; }
+  bool defined_by(Closure closure) const { return closure == Closure::consistent || definition_->state.empty(); }
 
-  /// The value of a parameter, or 0 if the law has no parameter of that name.
+  /// The value of a parameter, or its largest value if it varies; 0 if the law has no parameter of that name.
   double parameter(std::string_view name) const;
   /// This friction on a chain whose x and t are scaled up by `scale`.
   /// \throws InputError if the force does not scale, because a parameter of the law has a wrong Dimension.
@@ -55,8 +63,10 @@ class Friction {
 
   /// Whether there is any force.
   bool acts() const { return acts_; }
-  /// C of the law f = C w (0 without friction). Other laws have no coefficient C and no damping number C t.
+  /// C of the law f = C w (0 without friction). Other laws, and a C that varies, have none, and no damping number C t.
   std::optional<double> linear_coefficient() const { return law_->facts().linear_coefficient; }
+  /// C of the law f = C w at a position, also of a C that varies.
+  std::optional<double> linear_coefficient(double x, double y) const;
   /// f_0 of the law f = f_0 sign(w).
   std::optional<double> constant_strength() const { return law_->facts().constant_strength; }
   /// Whether a position at rest can withstand a force.
@@ -65,9 +75,14 @@ class Friction {
   double strength_at_rest() const { return at_rest_; }
   /// Whether f jumps or rises so steeply from rest that a time step must end at rest instead of reversing the slip.
   bool steep_at_rest() const { return sticks() || law_->facts().steep_at_rest; }
-  /// Number of state variables of each position.
-  std::size_t state_size() const { return definition_->state.size(); }
-  /// Values of the state variables of one position at t = 0.
+  /// Number of values that the friction of a position depends on and that solvers keep: the state variables of the law,
+  /// and its parameters that vary.
+  std::size_t state_size() const { return definition_->state.size() + columns_.size(); }
+  /// Their names.
+  std::vector<std::string> state_names() const;
+  /// Sets these values at a position at t = 0.
+  void start(double x, double y, std::span<double> state) const;
+  /// These values at t = 0 where the parameters that vary are largest.
   std::vector<double> state_at_start() const;
 
   /// The effect of the law's state on contacts and pores (friction/state/contacts.hpp).
@@ -93,9 +108,17 @@ class Friction {
   std::unique_ptr<RelaxationRate> relaxation_rate() const { return average().relaxation_rate(closure_); }
 
  private:
+  /// The name "normal_stress" stands for the share of the normal stress.
+  using Variations = std::map<std::string, AlongInterface, std::less<>>;
+  Friction(const Definition& definition, std::vector<double> values, Closure closure, Curve curve, Variations varying);
+
   const Definition* definition_;
   std::vector<double> values_;
-  std::map<std::string, AlongInterface, std::less<>> varying_;  ///< parameters that vary, by name
+  Variations varying_;
+  /// What each position keeps besides the state variables of the law: parameters, and last a share of the force.
+  std::vector<AlongInterface> columns_;
+  std::vector<std::string> column_names_;
+  std::optional<double> linear_;  ///< C of the law f = C w where the share of the force is 1
   Curve curve_;
   Closure closure_ = Closure::consistent;
   std::shared_ptr<const Law> law_;

@@ -209,6 +209,13 @@ class Law {
   QuadratureAverage average_{*this};
 };
 
+/// Parameters that vary along the interface. Each position has their values after the `own` state variables of its law.
+struct Varying {
+  std::size_t own = 0;
+  std::vector<std::size_t> parameters = {};  ///< their indices in Definition::parameters
+  std::vector<double> least = {};            ///< all parameters, where those that vary have their least values
+};
+
 /// The properties of a law that do not depend on its parameters.
 struct Definition {
   std::string_view name;       ///< the value of friction.law in a scenario
@@ -218,20 +225,89 @@ struct Definition {
   std::vector<Parameter> parameters = {};
   std::vector<StateVariable> state = {};
   CurveSource curve = CurveSource::none;
-  /// Makes the law from the values of its parameters, in their order, and from the curve if the law takes one.
-  std::shared_ptr<const Law> (*make)(const std::vector<double>& values, const Curve& curve);
+  /// Makes the law from the values of its parameters, in their order, and from the curve if the law takes one. A law
+  /// that takes a curve has no parameters that vary.
+  std::shared_ptr<const Law> (*make)(const std::vector<double>& values, const Curve& curve, const Varying& varying);
 
   /// Null if the law has no such parameter.
   const Parameter* find(std::string_view parameter) const;
 };
 
+/// The law L with parameters that vary. At each position it is the law L with the values there.
+template <class L>
+class VaryingLaw final : public Law {
+ public:
+  VaryingLaw(const std::vector<double>& values, const Varying& varying)
+      : Law({.steep_at_rest = L(values).facts().steep_at_rest || L(varying.least).facts().steep_at_rest}),
+        values_(values),
+        varying_(varying) {}
+  double strength(double speed, LocalState state) const override { return law_at(state).strength(speed, own(state)); }
+  double speed_after(double free, double weight, LocalState state) const override {
+    return law_at(state).speed_after(free, weight, own(state));
+  }
+  const ForceLoops& loops() const override { return loops_; }
+  const TrainAverage& average() const override { return average_; }
+  const StateEvolution& evolution() const override { return evolution_; }
+
+ private:
+  L law_at(LocalState state) const {
+    thread_local std::vector<double> values;  // kept between calls, which then allocate nothing
+    values = values_;
+    for (std::size_t i = 0; i < varying_.parameters.size(); ++i)
+      values[varying_.parameters[i]] = state[varying_.own + i];
+    return L(values);
+  }
+  template <class Values>
+  Values own(Values state) const {
+    return state.first(varying_.own);
+  }
+
+  class Loops final : public ForceLoops {
+   public:
+    explicit Loops(const VaryingLaw& law) : ForceLoops(law) {}
+    void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
+                      double* speed) const override {
+      for (std::size_t i = 0; i < size; ++i) speed[i] = law_.speed_after(free[i], weight, states.at(i));
+    }
+  };
+  class Average final : public QuadratureAverage {
+   public:
+    explicit Average(const VaryingLaw& law) : QuadratureAverage(law), varying_(law) {}
+    double mean_strength(const State& train, double contact, Closure closure, LocalState state) const override {
+      return varying_.law_at(state).average().mean_strength(train, contact, closure, varying_.own(state));
+    }
+
+   private:
+    const VaryingLaw& varying_;
+  };
+  class Evolution final : public StateEvolution {
+   public:
+    explicit Evolution(const VaryingLaw& law) : law_(law) {}
+    void start(std::span<double> state) const override { law_.law_at(state).evolution().start(law_.own(state)); }
+    void advance(const Slip& slip, double time, std::span<double> state) const override {
+      if (law_.varying_.own > 0) law_.law_at(state).evolution().advance(slip, time, law_.own(state));
+    }
+
+   private:
+    const VaryingLaw& law_;
+  };
+
+  std::vector<double> values_;
+  Varying varying_;
+  Loops loops_{*this};
+  Average average_{*this};
+  Evolution evolution_{*this};
+};
+
 /// Definition::make for a law whose constructor takes the values, or the values and the curve.
 template <class L>
-std::shared_ptr<const Law> make_law(const std::vector<double>& values, const Curve& curve) {
-  if constexpr (std::is_constructible_v<L, const std::vector<double>&, const Curve&>)
+std::shared_ptr<const Law> make_law(const std::vector<double>& values, const Curve& curve, const Varying& varying) {
+  if constexpr (std::is_constructible_v<L, const std::vector<double>&, const Curve&>) {
     return std::make_shared<L>(values, curve);
-  else
+  } else {
+    if (!varying.parameters.empty()) return std::make_shared<VaryingLaw<L>>(values, varying);
     return std::make_shared<L>(values);
+  }
 }
 
 /// All laws that a scenario can name.

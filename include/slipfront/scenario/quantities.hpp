@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slipfront/medium/constants.hpp"
+#include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::scenario {
 
@@ -32,8 +33,9 @@ struct Quantity {
   std::string_view si_unit;
 };
 
-/// The numbers with a dimension that a scenario file gives. \throws InputError like read_scenario.
+/// The numbers with a dimension that a scenario file gives; of a parameter that varies the least and the largest value.
+/// \throws InputError like read_scenario.
 std::vector<Quantity> quantities_of(std::string_view text, const std::string& file,
-                                    const std::vector<std::string>& overrides);
+                                    const std::vector<std::string>& overrides, const TableReader& tables = {});
 
 }  // namespace slipfront::scenario

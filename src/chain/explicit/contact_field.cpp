@@ -30,9 +30,8 @@ void fill_margins(const Problem& p, const Ranks& ranks, long first, std::size_t 
   for (long j = n; j < last; ++j) copy(j);
 }
 
-std::vector<std::string_view> state_names(const Problem& p) {
-  std::vector<std::string_view> names;
-  for (const friction::StateVariable& variable : p.friction.definition().state) names.push_back(variable.name);
+std::vector<std::string> state_names(const Problem& p) {
+  std::vector<std::string> names = p.friction.state_names();
   if (p.friction.changes_contacts()) names.insert(names.end(), {"excess_pressure", "earlier_contact"});
   return names;
 }

@@ -25,7 +25,7 @@ void fill_margins(const Problem& problem, const Ranks& ranks, long first, std::s
 
 /// Names of the state variables of a site, in the order of Levels::state. The state variables of the friction law come
 /// first. If contacts age or pores dilate, the excess pore pressure and a^2 at the level before follow.
-std::vector<std::string_view> state_names(const Problem& problem);
+std::vector<std::string> state_names(const Problem& problem);
 
 /// Contacts that change with the state of friction: a^2 of every site at three time levels, and the pressure of its
 /// pores. The arrays hold the sites of one rank and its margins, and begin at site `first`.

@@ -138,9 +138,9 @@ void ExplicitChain::archive(Archive& a) {
     all = levels();
     flows = flow_sums();
   }
-  const std::vector<std::string_view> variables = state_names(problem());
+  const std::vector<std::string> variables = state_names(problem());
   std::string names;
-  for (const std::string_view name : variables) names += std::string(name) + " ";
+  for (const std::string& name : variables) names += name + " ";
   a.same(names);
   a(flows, all.level, all.state, all.now, all.before);
   a.require(all.state.size() == variables.size() * all.now.size());

@@ -46,8 +46,8 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
       state_(variables_ * at(last_)),
       a2_(a2_of(problem_, first_, last_)),
       contacts_(problem_, first_, a2_) {
-  for (std::size_t j = 0; j < state_.size(); j += variables_)
-    problem_.friction.evolution().start(std::span(state_).subspan(j, variables_));
+  for (long j = first_; variables_ > 0 && j < last_; ++j)
+    problem_.friction.start(problem_.grid.x(folded(problem_, j)), 0, {state_of(j), variables_});
   if (problem_.forcing) {
     F_now_.resize(at(last_));
     evaluate_forcing(problem_.steady_forcing ? 0 : level_, F_now_);

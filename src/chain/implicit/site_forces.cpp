@@ -17,8 +17,8 @@ SiteForces::SiteForces(const Problem& p, Moment& now, const Ranks& ranks)
       contacts_(p.friction.contacts()),
       first_u_(now.u) {
   now.state.resize(variables_ * sites());
-  for (std::size_t j = 0; j < now.state.size(); j += variables_)
-    p.friction.evolution().start(std::span(now.state).subspan(j, variables_));
+  for (std::size_t j = 0; variables_ > 0 && j < sites(); ++j)
+    p.friction.start(x(j), 0, std::span(now.state).subspan(variables_ * j, variables_));
   start_contacts(now);
 }
 

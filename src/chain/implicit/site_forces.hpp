@@ -75,7 +75,7 @@ class SiteForces {
   double friction(const Moment& m, std::size_t j, double velocity) const;
   double loading_energy(const Moment& m) const;  ///< (all) in the springs that pull
 
-  static constexpr std::size_t most_variables = 4;
+  static constexpr std::size_t most_variables = 16;
   using State = std::array<double, most_variables>;
   /// The state variables of a site after a time at the velocity p. `values` has room for them.
   std::span<const double> evolved(const Moment& m, std::size_t j, double p, double time, State& values) const;

@@ -76,7 +76,7 @@ AveragedSolver::AveragedSolver(const Problem& problem, const Resolution& resolut
   if (problem.hold || problem.nucleation)
     throw InputError({.key = problem.hold ? "hold" : "nucleation",
                       .problem = "the averaged equations on a plane begin with free lines everywhere"});
-  if (problem.friction.state_size() > 0)
+  if (!problem.friction.definition().state.empty())
     throw InputError({.key = "friction",
                       .value = std::string(problem.friction.name()),
                       .problem = "the averaged equations on a plane do not follow the state of friction",

@@ -39,16 +39,18 @@ void LoopSteps::look() {
 /// Finds the rate at which friction takes momentum.
 void LoopSteps::find_strengths() {
   if (!friction_acts_) return;
-  const std::optional<double> C = problem_.friction.linear_coefficient();
+  const friction::Friction& friction = problem_.friction;
+  std::vector<double> local(friction.state_size());
   for (std::size_t i = 0; i < loops_.loss.size(); ++i) {
     const Point at = equations_.centre(i);
-    const double share = problem_.friction.factor(at.x, at.y);
-    if (C && problem_.friction.closure() == friction::Closure::consistent) {
-      loops_.loss[i] = *C * share;
+    const auto C = friction.linear_coefficient(at.x, at.y);
+    if (C && friction.closure() == friction::Closure::consistent) {
+      loops_.loss[i] = *C;
       continue;
     }
     const State train{equations_.phi()[i], equations_.psi()[i]};
-    const double mean = share * problem_.friction.mean_strength(train, equations_.contact(i));
+    friction.start(at.x, at.y, local);
+    const double mean = friction.mean_strength(train, equations_.contact(i), local);
     const double force = modulation::force_per_dislocation(mean) * equations_.middle(i);
     loops_.loss[i] = loops_.momentum[i] == 0 ? 0 : force / std::fabs(loops_.momentum[i]);
   }

@@ -19,7 +19,7 @@ namespace {
 
 using std::numbers::pi;
 
-bool is_viscous(const Problem& p) { return p.friction.linear_coefficient().value_or(0) > 0; }
+bool is_viscous(const Problem& p) { return p.friction.acts() && p.friction.linear_coefficient(p.left, p.bottom); }
 
 void check(const Problem& p) {
   if (p.friction.changes_contacts())

@@ -15,8 +15,9 @@ SiteFriction::SiteFriction(const Problem& problem, const Sites& sites, double dt
   each_ = friction_.state_size();
   if (friction_.steep_at_rest()) patch_ = patch_of(problem, sites);
   states_.resize(each_ * sites.nx * sites.ny);
-  for (std::size_t i = 0; i < states_.size(); i += each_)
-    friction_.evolution().start(std::span(states_).subspan(i, each_));
+  for (std::size_t site = 0; each_ > 0 && site < sites.nx * sites.ny; ++site)
+    friction_.start(sites.scale * sites.x(site % sites.nx), sites.scale * sites.y(site / sites.nx),
+                    std::span(states_).subspan(each_ * site, each_));
 }
 
 Rubbed SiteFriction::slow(std::size_t j, bool began, const Rates& rates, const double* before, double* after) const {

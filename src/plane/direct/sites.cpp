@@ -52,8 +52,9 @@ void fill(const Problem& p, Sites& sites) {
       const double a = p.contact(x, y);
       return a * a;
     });
-  if (const double C = p.friction.linear_coefficient().value_or(0); C > 0)
-    sites.viscous = at_each(sites, [&](double x, double y) { return C * p.friction.factor(x, y) / sites.scale; });
+  if (p.friction.acts() && p.friction.linear_coefficient(p.left, p.bottom))
+    sites.viscous =
+        at_each(sites, [&](double x, double y) { return *p.friction.linear_coefficient(x, y) / sites.scale; });
   if (p.fixed) sites.moves = at_each(sites, [&](double x, double y) { return p.fixed(x, y) == 0 ? 1.0 : 0.0; });
   if (p.edges == Edges::fixed) fix_edges(sites);
 }

@@ -42,8 +42,11 @@ GridSteps::GridSteps(const Problem& problem, const Cells& cells, GridMotion& mot
   motion.strength.assign(cells.size(), 0);
   each_ = problem.friction.state_size();
   motion.states.assign(each_ * cells.size(), 0);
-  for (std::size_t i = 0; i < motion.states.size(); i += each_)
-    problem.friction.evolution().start(std::span(motion.states).subspan(i, each_));
+  for (std::size_t cell = 0; each_ > 0 && cell < cells.size(); ++cell) {
+    const Point at = cells.centre(cell);  // a ghost cell has the values at the edge
+    problem.friction.start(std::clamp(at.x, problem.left, problem.right), std::clamp(at.y, problem.bottom, problem.top),
+                           std::span(motion.states).subspan(cell * each_, each_));
+  }
   if (problem.nucleation) {
     const Nucleation& n = *problem.nucleation;
     patch_.assign(cells.size(), 0);
@@ -110,21 +113,20 @@ void GridSteps::find_strengths() {
   motion_.power = 0;
   if (!friction_acts_) return;
   const Trains& trains = equations_.trains();
-  const std::optional<double> C = problem_.friction.linear_coefficient();
-  const bool is_linear = C && problem_.friction.closure() == friction::Closure::consistent;
+  const bool consistent = problem_.friction.closure() == friction::Closure::consistent;
   for (std::size_t i = 0; i < trains.at.size(); ++i) {
     const std::size_t cell = trains.at[i];
     const Point at = cells_.centre(cell);
     const double size = std::fabs(motion_.now.action[cell]);
     double force = 0;
-    const double share = problem_.friction.factor(at.x, at.y);
-    if (is_linear) {
-      motion_.strength[cell] = *C * share;
+    const auto C = problem_.friction.linear_coefficient(at.x, at.y);
+    if (C && consistent) {
+      motion_.strength[cell] = *C;
       force = motion_.strength[cell] * size;
     } else {
       const double a = trains.contact.empty() ? 1 : trains.contact[i];
       if (!is_released(cell))
-        force = share * problem_.friction.mean_strength({trains.phi[i], trains.psi[i]}, a, state_of(cell));
+        force = problem_.friction.mean_strength({trains.phi[i], trains.psi[i]}, a, state_of(cell));
       motion_.strength[cell] = sticks_ ? force : (size > 0 ? force / size : 0);
     }
     if (motion_.now.slip[cell] > 0) motion_.power += force * std::fabs(rate_.slip[cell]) * cells_.hx * cells_.hy;

@@ -15,8 +15,8 @@ StateGrid::StateGrid(const friction::Friction& friction, double left, double rig
 
 std::vector<double> StateGrid::initial() const {
   std::vector<double> values(each_ * count_);
-  for (std::size_t j = 0; j < values.size(); j += each_)
-    friction_.evolution().start(std::span(values).subspan(j, each_));
+  for (std::size_t j = 0; each_ > 0 && j < count_; ++j)
+    friction_.start(left_ + (static_cast<double>(j) + 0.5) * spacing_, 0, std::span(values).subspan(each_ * j, each_));
   return values;
 }
 

@@ -1,0 +1,141 @@
+// Friction whose parameters vary along the interface is at each position the law with the values there.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "slipfront/error.hpp"
+#include "slipfront/friction/friction.hpp"
+
+namespace slipfront::friction {
+namespace {
+
+/// All laws, with parameters at which their forces act. A curve has no other parameter than its factor.
+std::vector<Friction> all_frictions() {
+  std::vector<Friction> all;
+  for (const Definition* law : laws()) {
+    std::vector<double> values;
+    for (const Parameter& p : law->parameters) {
+      const bool number = p.words.empty() && !p.only_on_chain;
+      values.push_back(number ? std::fmin(p.most, 0.3 + 0.1 * static_cast<double>(values.size())) : p.value);
+    }
+    const Curve curve = [](double speed) { return 0.2 + speed / (1 + speed); };
+    if (!values.empty())
+      all.emplace_back(*law, values, Closure::consistent, law->curve == CurveSource::none ? Curve{} : curve);
+  }
+  return all;
+}
+
+bool may_vary(const Parameter& p) { return p.words.empty() && !p.only_on_chain; }
+
+/// A value of a parameter that varies by a factor of two.
+AlongInterface varied(double value) {
+  return {[value](double x, double y) { return value * (0.75 + 0.25 * std::sin(x + 2 * y)); }, 0.5 * value, value};
+}
+
+/// Compares `friction`, which varies, with the law of the same values at positions.
+void expect_the_law_there(const Friction& friction, const std::vector<std::string>& varying, const std::string& what) {
+  constexpr std::size_t size = 70;  // more than the loops treat at once
+  const std::size_t each = friction.state_size();
+  std::vector<double> state(each * size), free(size), speed(size), force(size), typical(size), mean(size), slope(size),
+      s(size);
+  std::vector<Friction> there;
+  std::vector<std::vector<double>> own(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double x = 0.1 * static_cast<double>(i), y = 0.05 * static_cast<double>(i);
+    friction.start(x, y, std::span(state).subspan(i * each, each));
+    Friction local = friction;
+    for (const std::string& name : varying) local = local.with(name, varied(friction.parameter(name)).at(x, y));
+    own[i] = local.state_at_start();
+    free[i] = 0.01 * std::pow(1.1, static_cast<double>(i));
+    s[i] = 0.1 + 0.01 * static_cast<double>(i);
+    there.push_back(local);
+  }
+  friction.evolution().advance_all(size, {free.data(), free.data()}, 0.3, each, state.data());
+  friction.loops().strengths(size, free.data(), {state.data(), each}, force.data());
+  friction.loops().speeds_after(size, free.data(), 0.1, {state.data(), each}, speed.data());
+  friction.average().mean_strengths({size, free.data(), s.data(), {state.data(), each}}, Closure::consistent,
+                                    mean.data(), slope.data());
+  for (std::size_t i = 0; i < size; ++i) {
+    there[i].evolution().advance(Slip::at(free[i]), 0.3, own[i]);
+    const LocalState at(state.data() + i * each, each);
+    const std::string where = what + " at " + std::to_string(i);
+    for (std::size_t v = 0; v < own[i].size(); ++v) EXPECT_NEAR(at[v], own[i][v], 1e-12 * own[i][v]) << where;
+    const double strength = there[i].law().strength(free[i], own[i]);
+    EXPECT_NEAR(force[i], strength, 1e-7 * strength) << where;  // a drawn curve has a table
+    EXPECT_NEAR(friction.force(free[i], at), strength, 1e-12 * strength) << where;
+    EXPECT_NEAR(speed[i], there[i].law().speed_after(free[i], 0.1, own[i]), 1e-7 * free[i]) << where;
+    const double psi = std::atanh(s[i]), phi = std::asinh(free[i] / (2 * std::cosh(psi)));
+    const double wanted = there[i].mean_strength({phi, psi}, 1, own[i]);
+    EXPECT_NEAR(mean[i], wanted, 1e-7 * wanted) << where;
+    EXPECT_NEAR(friction.mean_strength({phi, psi}, 1, at), wanted, 1e-9 * wanted) << where;
+    const auto rate = friction.relaxation_rate(), local_rate = there[i].relaxation_rate();
+    const double expected = (*local_rate)({phi, psi}, 1, own[i]);
+    EXPECT_NEAR((*rate)({phi, psi}, 1, at), expected, 1e-7 * expected) << where;
+  }
+}
+
+TEST(VaryingFriction, IsAtEachPositionTheLawWithTheParametersThere) {
+  for (const Friction& friction : all_frictions()) {
+    std::vector<std::string> names;
+    Friction all = friction;
+    for (const Parameter& p : friction.definition().parameters) {
+      if (!may_vary(p)) continue;
+      const std::string name(p.name);
+      names.push_back(name);
+      const AlongInterface value = varied(friction.parameter(name));
+      all = all.with(name, value);
+      expect_the_law_there(friction.with(name, value), {name}, std::string(friction.name()) + ", " + name);
+    }
+    expect_the_law_there(all, names, std::string(friction.name()) + ", all");
+  }
+}
+
+TEST(VaryingFriction, IsProportionalToTheNormalStress) {
+  const AlongInterface share = varied(1);
+  for (const Friction& friction : all_frictions()) {
+    const Friction under = friction.under(share);
+    std::vector<double> state(under.state_size());
+    under.start(0.7, 0.2, state);
+    const double strength = friction.law().strength(0.4, friction.state_at_start());
+    EXPECT_NEAR(under.force(-0.4, state), -share.at(0.7, 0.2) * strength, 1e-12) << friction.name();
+    EXPECT_EQ(under.steep_at_rest(), friction.steep_at_rest()) << friction.name();
+  }
+}
+
+TEST(VaryingFriction, ScalesAsItsLawDoes) {
+  constexpr double scale = 40;
+  for (const Friction& friction : all_frictions()) {
+    Friction varying = friction.under(varied(1));
+    for (const Parameter& p : friction.definition().parameters)
+      if (may_vary(p)) varying = varying.with(std::string(p.name), varied(friction.parameter(p.name)));
+    const Friction scaled = varying.scaled_by(scale);
+    std::vector<double> state(varying.state_size()), of_scaled(state.size());
+    varying.start(0.3, 0.4, state);
+    scaled.start(0.3 * scale, 0.4 * scale, of_scaled);
+    const double strength = varying.force(0.2, state) / scale;
+    EXPECT_NEAR(scaled.force(0.2, of_scaled), strength, 1e-12 * strength) << friction.name();
+  }
+}
+
+TEST(VaryingFriction, HasNoCoefficientOfItsOwnButOneAtEachPosition) {
+  const Friction friction = viscous(0.5).with("coefficient", varied(0.4));
+  EXPECT_FALSE(friction.linear_coefficient());
+  EXPECT_NEAR(friction.linear_coefficient(0.3, 0.1).value(), varied(0.4).at(0.3, 0.1), 1e-15);
+  EXPECT_EQ(viscous(0.5).linear_coefficient(1, 1).value(), 0.5);
+  EXPECT_FALSE(coulomb(0.5).with("coefficient", varied(0.4)).linear_coefficient(0, 0));
+}
+
+TEST(VaryingFriction, DoesNotChangeContacts) {
+  for (const Definition* law : laws()) {
+    if (law->find("contact_ageing") == nullptr) continue;
+    std::vector<double> values;
+    for (const Parameter& p : law->parameters) values.push_back(p.words.empty() ? std::fmin(p.most, 0.5) : 0);
+    EXPECT_THROW(Friction(*law, values).with("strength", varied(1)), InputError);
+  }
+}
+
+}  // namespace
+}  // namespace slipfront::friction
