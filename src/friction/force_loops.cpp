@@ -13,15 +13,15 @@ namespace {
 /// the left side there; `open` is 1 until v is found to rounding.
 struct Secants {
   static constexpr std::size_t most = 64;
-  double v[most], before[most], excess[most], open[most];
+  double v[most], before[most], excess[most], open[most], weight[most];
 };
 
 /// Starts at v = free, where the force is `force`; `at_rest` is what holds a position at rest.
-SLIPFRONT_CLONES void start_secants(std::size_t size, const double* free, double weight, const double* at_rest,
-                                    const double* force, Secants& s) {
+SLIPFRONT_CLONES void start_secants(std::size_t size, const double* free, const double* at_rest, const double* force,
+                                    Secants& s) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
-    const double slowed = free[i] - weight * force[i];
+    const double weight = s.weight[i], slowed = free[i] - weight * force[i];
     const bool held = weight * at_rest[i] >= free[i], found = held || slowed == free[i];
     s.before[i] = free[i];
     s.excess[i] = weight * force[i];
@@ -31,12 +31,11 @@ SLIPFRONT_CLONES void start_secants(std::size_t size, const double* free, double
 }
 
 /// One step of each from the force at v. The error of a secant is the product of the errors of its two points.
-SLIPFRONT_CLONES void take_secants(std::size_t size, const double* free, double weight, const double* force,
-                                   Secants& s) {
+SLIPFRONT_CLONES void take_secants(std::size_t size, const double* free, const double* force, Secants& s) {
   constexpr double rounding = 4e-16;
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
-    const double v = s.v[i], excess = v + weight * force[i] - free[i];
+    const double v = s.v[i], excess = v + s.weight[i] * force[i] - free[i];
     const double way = v - s.before[i], next = v - excess * (way / (excess - s.excess[i])), step = next - v;
     const double error = excess > 0 ? excess : -excess, left = step / v * (way / v);
     const bool there = error <= rounding * free[i], inside = next > 0 && next < free[i];
@@ -56,6 +55,16 @@ void ForceLoops::strengths(std::size_t size, const double* speed, LocalStates st
 
 void ForceLoops::speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
                               double* speed) const {
+  double share[Secants::most];
+  std::fill_n(share, Secants::most, 1.0);
+  for (std::size_t begin = 0; begin < size; begin += Secants::most) {
+    const std::size_t some = std::min(Secants::most, size - begin);
+    ForceLoops::speeds_after_under(some, share, free + begin, weight, states.from(begin), speed + begin);
+  }
+}
+
+void ForceLoops::speeds_after_under(std::size_t size, const double* share, const double* free, double weight,
+                                    LocalStates states, double* speed) const {
   constexpr int most_steps = 6;
   Secants s;
   double at_rest[Secants::most], force[Secants::most];
@@ -63,21 +72,17 @@ void ForceLoops::speeds_after(std::size_t size, const double* free, double weigh
     const std::size_t some = std::min(Secants::most, size - begin);
     const LocalStates theirs = states.from(begin);
     std::fill_n(s.v, some, 0.0);
+    for (std::size_t i = 0; i < some; ++i) s.weight[i] = weight * share[begin + i];
     strengths(some, s.v, theirs, at_rest);
     strengths(some, free + begin, theirs, force);
-    start_secants(some, free + begin, weight, at_rest, force, s);
+    start_secants(some, free + begin, at_rest, force, s);
     for (int step = 0; step < most_steps && std::find(s.open, s.open + some, 1.0) != s.open + some; ++step) {
       strengths(some, s.v, theirs, force);
-      take_secants(some, free + begin, weight, force, s);
+      take_secants(some, free + begin, force, s);
     }
     for (std::size_t i = 0; i < some; ++i)
-      speed[begin + i] = s.open[i] == 0 ? s.v[i] : law_.speed_after(free[begin + i], weight, theirs.at(i));
+      speed[begin + i] = s.open[i] == 0 ? s.v[i] : law_.speed_after(free[begin + i], s.weight[i], theirs.at(i));
   }
-}
-
-void ForceLoops::speeds_after_under(std::size_t size, const double* share, const double* free, double weight,
-                                    LocalStates states, double* speed) const {
-  for (std::size_t i = 0; i < size; ++i) speed[i] = law_.speed_after(free[i], weight * share[i], states.at(i));
 }
 
 }  // namespace slipfront::friction

@@ -235,7 +235,7 @@ struct Definition {
 
 /// The law L with parameters that vary. At each position it is the law L with the values there.
 template <class L>
-class VaryingLaw final : public Law {
+class VaryingLaw : public Law {
  public:
   VaryingLaw(const std::vector<double>& values, const Varying& varying)
       : Law({.steep_at_rest = L(values).facts().steep_at_rest || L(varying.least).facts().steep_at_rest}),
@@ -248,6 +248,10 @@ class VaryingLaw final : public Law {
   const ForceLoops& loops() const override { return loops_; }
   const TrainAverage& average() const override { return average_; }
   const StateEvolution& evolution() const override { return evolution_; }
+
+ protected:
+  const std::vector<double>& values() const { return values_; }
+  const Varying& varying() const { return varying_; }
 
  private:
   L law_at(LocalState state) const {
@@ -299,12 +303,16 @@ class VaryingLaw final : public Law {
   Evolution evolution_{*this};
 };
 
-/// Definition::make for a law whose constructor takes the values, or the values and the curve.
+/// Definition::make for a law whose constructor takes the values, or the values and the curve. L::WhereItVaries, if L
+/// names one, is a VaryingLaw<L> with vector code.
 template <class L>
 std::shared_ptr<const Law> make_law(const std::vector<double>& values, const Curve& curve, const Varying& varying) {
   if constexpr (std::is_constructible_v<L, const std::vector<double>&, const Curve&>) {
     return std::make_shared<L>(values, curve);
   } else {
+    if constexpr (requires { typename L::WhereItVaries; }) {
+      if (!varying.parameters.empty()) return std::make_shared<typename L::WhereItVaries>(values, varying);
+    }
     if (!varying.parameters.empty()) return std::make_shared<VaryingLaw<L>>(values, varying);
     return std::make_shared<L>(values);
   }

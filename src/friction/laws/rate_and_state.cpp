@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "foundation/simd/elementary.hpp"
+#include "foundation/simd/vector_code.hpp"
 #include "friction/laws/rate_and_state_loops.hpp"
 #include "friction/state/contact_age.hpp"
 #include "friction/train_means/asinh_average.hpp"
@@ -61,8 +62,12 @@ class RateAndStateLoops final : public ForceLoops {
   double a_over_b_;
 };
 
+class VaryingRateAndState;
+
 class RateAndState final : public Law {
  public:
+  using WhereItVaries = VaryingRateAndState;
+
   explicit RateAndState(const std::vector<double>& v)
       : Law({.steep_at_rest = true}),
         f0_(v[f0]),
@@ -118,6 +123,142 @@ class RateAndState final : public Law {
   RateAndStateLoops loops_;
   AsinhAverage average_;
   ContactAge evolution_;
+};
+
+/// Parameters and states of some positions.
+struct AtPositions {
+  static constexpr std::size_t most = 64;
+  double of[kind][most];  ///< by parameter
+  double theta[most];
+  double log_G[most], G[most];  ///< f = a asinh(w G)
+};
+
+SLIPFRONT_CLONES void find_G(std::size_t size, AtPositions& at) {
+  constexpr double largest = 650;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double v0 = at.of[velocity][i];
+    const double aged = log_branch_free(at_least(at.theta[i] * v0 / at.of[distance][i], AsinhForce::least_theta));
+    const double log_G =
+        (at.of[f0][i] + at.of[evolution_effect][i] * aged) / at.of[direct][i] - log_branch_free(2 * v0);
+    at.log_G[i] = log_G;
+    at.G[i] = exp_branch_free(at_most(at_least(log_G, -largest), largest));
+  }
+}
+
+/// Where the parameters vary, the force at a position is a times that of one law asinh(w theta') at theta' = G. Vector
+/// code of that law then serves them, and the evolution of theta at the speed w / D_c.
+class VaryingRateAndState final : public VaryingLaw<RateAndState> {
+ public:
+  VaryingRateAndState(const std::vector<double>& values, const Varying& varying) : VaryingLaw(values, varying) {}
+  const ForceLoops& loops() const override { return loops_; }
+  const TrainAverage& average() const override { return average_; }
+  const StateEvolution& evolution() const override { return evolution_; }
+
+ private:
+  static constexpr AsinhForce one{.a = 1, .base = 0, .share = 1};
+
+  /// Calls `task` with the first position of each part, its size, and what holds there.
+  template <class Task>
+  void in_parts(std::size_t size, LocalStates states, const Task& task) const {
+    AtPositions at;
+    for (std::size_t p = 0; p < kind; ++p) std::fill_n(at.of[p], AtPositions::most, values()[p]);
+    for (std::size_t begin = 0; begin < size; begin += AtPositions::most) {
+      const std::size_t some = std::min(AtPositions::most, size - begin);
+      for (std::size_t i = 0; i < some; ++i) at.theta[i] = states.at(begin + i)[0];
+      for (std::size_t c = 0; c < varying().parameters.size(); ++c)
+        for (std::size_t i = 0; i < some; ++i) at.of[varying().parameters[c]][i] = states.at(begin + i)[1 + c];
+      task(begin, some, at);
+    }
+  }
+
+  class Loops final : public ForceLoops {
+   public:
+    explicit Loops(const VaryingRateAndState& law) : ForceLoops(law), all_(law) {}
+    void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
+      all_.in_parts(size, states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+        find_G(some, at);
+        const bool within = forces(one, some, speed + begin, at.G, force + begin);
+        for (std::size_t i = 0; i < some; ++i) force[begin + i] *= at.of[direct][i];
+        for (std::size_t i = 0; i < some && !within; ++i)
+          if (!within_exponents(one, at.G[i])) force[begin + i] = law_.strength(speed[begin + i], states.at(begin + i));
+      });
+    }
+    /// v = a v' with v' + weight asinh(a G v') = free / a.
+    void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
+                      double* speed) const override {
+      all_.in_parts(size, states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+        double freed[AtPositions::most], aged[AtPositions::most], done[AtPositions::most];
+        find_G(some, at);
+        const double* const a = at.of[direct];
+        for (std::size_t i = 0; i < some; ++i) {
+          freed[i] = free[begin + i] / a[i];
+          aged[i] = at.G[i] * a[i];
+        }
+        const bool all = friction::speeds_after(one, some, freed, weight, aged, speed + begin, done);
+        for (std::size_t i = 0; i < some; ++i) speed[begin + i] *= a[i];
+        for (std::size_t i = 0; i < some && !all; ++i)
+          if (done[i] == 0) speed[begin + i] = law_.speed_after(free[begin + i], weight, states.at(begin + i));
+      });
+    }
+
+   private:
+    const VaryingRateAndState& all_;
+  };
+
+  class Average final : public QuadratureAverage {
+   public:
+    explicit Average(const VaryingRateAndState& law) : QuadratureAverage(law), all_(law), mean_of_one_(law, one) {}
+    double mean_strength(const State& train, double contact, Closure closure, LocalState state) const override {
+      return all_.VaryingLaw::average().mean_strength(train, contact, closure, state);
+    }
+    void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
+      if (closure != Closure::consistent) return QuadratureAverage::mean_strengths(trains, closure, mean, slope);
+      all_.in_parts(trains.size, trains.states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+        find_G(some, at);
+        mean_of_one_.mean_strengths({some, trains.fastest + begin, trains.s + begin, {at.G, 1}}, closure, mean + begin,
+                                    slope == nullptr ? nullptr : slope + begin);
+        for (std::size_t i = 0; i < some; ++i) {
+          mean[begin + i] *= at.of[direct][i];
+          if (slope != nullptr) slope[begin + i] *= at.of[direct][i];
+        }
+      });
+    }
+
+   private:
+    const VaryingRateAndState& all_;
+    AsinhAverage mean_of_one_;
+  };
+
+  class Evolution final : public StateEvolution {
+   public:
+    explicit Evolution(const VaryingRateAndState& law)
+        : all_(law), of_one_(law.values()[kind] != 0 ? ContactAge::Kind::slip : ContactAge::Kind::ageing, 0, 1) {}
+    void start(std::span<double> state) const override { all_.VaryingLaw::evolution().start(state); }
+    void advance(const Slip& slip, double time, std::span<double> state) const override {
+      all_.VaryingLaw::evolution().advance(slip, time, state);
+    }
+    void advance_all(std::size_t size, const Slips& slips, double time, std::size_t each,
+                     double* state) const override {
+      all_.in_parts(size, {state, each}, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+        double mean[AtPositions::most], typical[AtPositions::most];
+        for (std::size_t i = 0; i < some; ++i) {
+          mean[i] = slips.mean[begin + i] / at.of[distance][i];
+          typical[i] = slips.typical[begin + i] / at.of[distance][i];
+        }
+        of_one_.advance_all(some, {mean, typical}, time, 1, at.theta);
+        for (std::size_t i = 0; i < some; ++i) state[(begin + i) * each] = at.theta[i];
+      });
+    }
+
+   private:
+    const VaryingRateAndState& all_;
+    ContactAge of_one_;
+  };
+
+  Loops loops_{*this};
+  Average average_{*this};
+  Evolution evolution_{*this};
 };
 
 template <typename T>
