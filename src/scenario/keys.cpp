@@ -135,14 +135,16 @@ std::vector<Key> friction_keys() {
   all.push_back(with_laws(other_key(table, "file", KeyType::text, "required by the law table",
                                     "CSV or NetCDF file with w and f; relative to the scenario file"),
                           friction::CurveSource::table));
-  all.push_back(
-      word_key(table, "units", {"model", "SI"}, "model",
-               "units of w and f in formula or file, and of x and y in coefficient: those of the model, or m, m/s and "
-               "Pa; f is a pure number if coefficient is a stress"));
+  all.push_back(word_key(
+      table, "units", {"model", "SI"}, "model",
+      "units of formulas and files, also of those in place of a number that varies: those of the model, or m, s, "
+      "m/s and Pa; f is a pure number if coefficient is a stress"));
   all.push_back(word_key(table, "closure", {"consistent", "paper"}, "consistent",
                          "average of friction: the exact one, or the printed one, which understates friction"));
-  all.push_back(other_key(table, "normal_stress", KeyType::quantity, "forces are in the unit of F",
-                          "with it, numbers for forces are friction coefficients"));
+  all.push_back(
+      other_key(table, "normal_stress", KeyType::quantity, "forces are in the unit of F",
+                "with it, numbers for forces are friction coefficients. It and the numbers of a law may vary: a "
+                "formula of x (and y on a plane), or { file = \"a.csv\", column = \"a\" }"));
   return all;
 }
 
