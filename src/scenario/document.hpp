@@ -72,8 +72,8 @@ struct Value {
   Kind kind = Kind::other;
   double number = 0;                    ///< the number; 1 or 0 for a truth value
   std::string text = {};                ///< the text, or the number as messages show it
-  std::vector<Value> items = {};        ///< of an array or an inline table
-  std::vector<std::string> names = {};  ///< of the items of an inline table
+  std::vector<Value> items = {};        ///< items of an array or an inline table
+  std::vector<std::string> names = {};  ///< names of the items of an inline table
   std::size_t line = 0;
   bool overridden = false;  ///< came from the command line, not from the file
 };

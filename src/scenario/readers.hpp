@@ -22,13 +22,13 @@ void read_medium(const Document& document, medium::Constants& medium);
 std::optional<double> stiffness_of(const Section& section);
 ModelUnit unit_of_stiffness(const Section& section);
 
-/// Where friction acts, in x and y of the scenario.
+/// The line or plane on which friction acts, in x and y of the scenario.
 struct Interface {
   Extent extent;
   bool plane = false;
   double ratio = 1;  ///< y of the scenario over y of the problem
 };
-/// `reach` is how far the initial state extends, if [domain] does not tell the extent.
+/// `reach` is how far the initial state extends, if [domain] does not give the extent.
 Interface interface_of(const Document& document, double reach);
 
 /// Parameters of friction as a laboratory gives them, in the model's units (docs/friction.md, "In SI units"): a text

@@ -15,7 +15,7 @@ namespace {
 const std::string domain = "[domain]\nleft = -2\nright = 2\n[friction]\n";
 const std::string ageing = step + domain + "law = \"rate-and-state\"\nstrength = 0.3\nevolution_effect = 0.02\n";
 
-/// What a position at x keeps.
+/// The values of friction that solvers keep at x.
 std::vector<double> state_at(const Scenario& s, double x) {
   std::vector<double> state(s.friction.state_size());
   s.friction.start(x, 0, state);

@@ -115,7 +115,7 @@ class Friction {
   const Definition* definition_;
   std::vector<double> values_;
   Variations varying_;
-  /// What each position keeps besides the state variables of the law: parameters, and last a share of the force.
+  /// The values of a position besides the state variables of the law: parameters, and last a share of the force.
   std::vector<AlongInterface> columns_;
   std::vector<std::string> column_names_;
   std::optional<double> linear_;  ///< C of the law f = C w where the share of the force is 1

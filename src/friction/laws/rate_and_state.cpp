@@ -146,8 +146,8 @@ SLIPFRONT_CLONES void find_G(std::size_t size, AtPositions& at) {
   }
 }
 
-/// Where the parameters vary, the force at a position is a times that of one law asinh(w theta') at theta' = G. Vector
-/// code of that law then serves them, and the evolution of theta at the speed w / D_c.
+/// The law with parameters that vary. Its force at a position is a times that of one law asinh(w theta') at theta' = G.
+/// Vector code of that law then serves them, and the evolution of theta at the speed w / D_c.
 class VaryingRateAndState final : public VaryingLaw<RateAndState> {
  public:
   VaryingRateAndState(const std::vector<double>& values, const Varying& varying) : VaryingLaw(values, varying) {}
