@@ -13,13 +13,13 @@ namespace slipfront::friction {
 
 namespace {
 
-constexpr std::string_view normal_stress = "normal_stress", coefficient = "coefficient";
+constexpr std::string_view name_of_pressure = "normal_stress", name_of_factor = "coefficient";
 
 /// Whether the force is proportional to the coefficient, as it has no other parameter that is a force.
 bool is_proportional(const Definition& definition) {
   std::size_t forces = 0;
   for (const Parameter& p : definition.parameters) forces += p.dimension == Dimension::force ? 1u : 0u;
-  return forces == 1 && definition.find(coefficient) != nullptr;
+  return forces == 1 && definition.find(name_of_factor) != nullptr;
 }
 
 std::size_t index_of(const Definition& definition, std::string_view parameter) {
@@ -50,7 +50,7 @@ Friction::Friction(const Definition& definition, std::vector<double> values, Clo
   std::optional<AlongInterface> share;
   Varying apart{.own = definition.state.size(), .least = values_};
   for (const auto& [name, value] : varying_) {
-    if (name == normal_stress || (name == coefficient && is_proportional(definition))) {
+    if (name == name_of_pressure || (name == name_of_factor && is_proportional(definition))) {
       const AlongInterface part = value.most > 0 ? divided(value, value.most) : AlongInterface{value.at, 0, 0};
       share = share ? product(*share, part) : part;
       continue;
@@ -103,7 +103,7 @@ Friction Friction::with(std::string_view parameter, const AlongInterface& value)
 
 Friction Friction::under(const AlongInterface& share) const {
   Variations varying = varying_;
-  varying.insert_or_assign(std::string(normal_stress), share);
+  varying.insert_or_assign(std::string(name_of_pressure), share);
   return {*definition_, values_, closure_, curve_, std::move(varying)};
 }
 
