@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "batch.hpp"
+#include "foundation/text/printable.hpp"
 #include "json.hpp"
 #include "long_run.hpp"
 #include "run/run.hpp"
+#include "run/tables.hpp"
 #include "slipfront/scenario/keys.hpp"
 #include "slipfront/scenario/problem.hpp"
 #include "slipfront/scenario/quantities.hpp"
@@ -71,7 +73,7 @@ void print(const scenario::Scenario& s, const std::vector<scenario::Quantity>& q
   table.add_title("");
   table.add({"key", "in the file", "in the model", "", "in SI", ""});
   for (const scenario::Quantity& q : quantities)
-    table.add({q.key, q.text, number(q.model), std::string(q.unit), q.si_unit.empty() ? "" : in_si(q.si),
+    table.add({q.key, printable(q.text, 24), number(q.model), std::string(q.unit), q.si_unit.empty() ? "" : in_si(q.si),
                si_unit(q.si, q.si_unit)});
   put(table.text() + "\n");
   for (const NamedNumber& n : named(numbers)) {
@@ -105,7 +107,7 @@ Json json_of_units(const scenario::Scenario& s, const std::vector<scenario::Quan
 
 int run_units(const ScenarioArguments& a) {
   const scenario::Scenario s = read_scenario_of(a);
-  const auto quantities = scenario::quantities_of(s.text, s.file, {});
+  const auto quantities = scenario::quantities_of(s.text, s.file, {}, run::read_table);
   const scenario::Numbers numbers = scenario::numbers_of(s);
   if (a.common.json)
     put(text_of(json_of_units(s, quantities, numbers)) + "\n");

@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
-from support import CommandLine, PROGRAM
+from support import CommandLine, PROGRAM, SOURCE
 
 BLOCK = """
 [initial]
@@ -56,6 +56,12 @@ class Units(CommandLine):
         self.assertAlmostEqual(keys["loading.stiffness"]["si"] / 0.06e12, 1)
         self.assertAlmostEqual(keys["friction.strength"]["si"] / 2e6, 1)
         self.assertAlmostEqual(keys["friction.characteristic_slip"]["si"] / 0.5e-6, 1)
+
+    def test_prints_the_range_of_a_column_of_a_table(self):
+        out = json.loads(self.ok("units", os.path.join(SOURCE, "cases/gouge-patch.toml"), "--json"))
+        keys = {row["key"]: row["si"] for row in out["keys"]}
+        self.assertAlmostEqual(keys["friction.direct_effect, least"] / (0.008 * 10e6), 1)
+        self.assertAlmostEqual(keys["friction.direct_effect, largest"] / (0.012 * 10e6), 1)
 
     def test_states_the_critical_stiffness(self):
         out = json.loads(self.ok("units", self.file, "--json"))
