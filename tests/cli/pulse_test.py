@@ -17,7 +17,8 @@ PULSE = ["closure", "friction_coefficient", "damping_number", "time", "slip_velo
          "steps", "solve_seconds", "wall_seconds"]
 
 #: Settings of each loaded case with which it has one event.
-TO_FIRST_EVENT = {"laboratory-block.toml": ["time.end=120 s"], "precursors.toml": ["time.end=0.4 s"],
+TO_FIRST_EVENT = {"laboratory-block.toml": ["time.end=120 s"], "precursors.toml": ["time.end=0.4 s"], "gouge-patch.toml": ["time.end=100 s"],
+                  "asperity.toml": ["time.end=2e9 s"], "two-asperities.toml": ["time.end=2e9 s"],
                   "stick-slip.toml": ["domain.left=-13", "domain.right=13", "time.end=3e5"]}
 
 
