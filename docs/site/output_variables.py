@@ -36,6 +36,7 @@ JSON_ONLY = {
     "origin": "x of the part that moves first in a slip event, in b / A",
     "length": "length of all parts that move in a slip event, in b / A",
     "complete": "0 if the run ended within the slip event",
+    "merged": "number of other slip events that a slip event has met, which are part of it",
     "reference": "level with which `compare` compares the others",
     "levels": "list of the levels of `compare`",
     "level": "name of a level",
@@ -187,7 +188,8 @@ def main() -> None:
         described = describe_lines("Values of `relations`", "slipfront relations", run.text("relations", "--stress", "1"))
         described |= describe_lines("Values of `pulse`", "slipfront pulse SCENARIO", run.text("pulse", run.case("step-viscous.toml"), "--quiet"))
         described |= describe_lines("Values of `chain`", "slipfront chain SCENARIO", run.text("chain", run.case("step-viscous.toml"), "--quiet", "--set", "chain.scale=30"))
-        pulses = [run.file("pulse", run.case("step-viscous.toml")), run.file("chain", run.case("stick-slip.toml"), *SHORT_LOADED_CHAIN),
+        pulses = [run.file("pulse", run.case("step-viscous.toml")),
+                  run.file("chain", run.case("step-viscous.toml"), "--set", "chain.scale=30", "output.displacement=true", "output.dislocations=true"), run.file("chain", run.case("stick-slip.toml"), *SHORT_LOADED_CHAIN),
                   run.file("chain", run.case("precursors.toml"), "--set", "time.end=0.5 s")]
         described |= describe_variables("Files of `pulse` and `chain`", "slipfront pulse SCENARIO -o OUT.nc", pulses)
         described |= describe_variables("Files of `compare`", "slipfront compare SCENARIO -o OUT.nc",

@@ -113,7 +113,9 @@ def chain(scenario, *, set=None, output=None, resume=None, progress=None, thread
     xarray.Dataset with the variables of `pulse`. The attributes are the values that `slipfront chain --json` prints: time,
     scale, ..., dislocations, energy_drift, charge_error, wall_seconds. With a table [loading], slip events have the
     variables event_onset, event_duration, ... over the dimension `event`. With output.fronts, event_arrival and the stresses
-    before each event depend on `event` and `position`.
+    before each event depend on `event` and `position`. With output.displacement, `displacement` depends on time and `site`.
+    With output.dislocations, `dislocation_position` and `dislocation_level` depend on time and `dislocation`, and
+    `dislocation_sign` on `dislocation`. They are NaN while a dislocation is not in the chain.
 
     Raises
     ------

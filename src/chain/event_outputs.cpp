@@ -30,6 +30,7 @@ bool EventOutputs::wants(std::size_t event) {
 }
 
 void EventOutputs::add(output::Snapshot snapshot) {
+  add_bytes(snapshot);
   all_.push_back(std::move(snapshot));
   of_event_.push_back(1);
   steps_ = 0;
@@ -37,8 +38,24 @@ void EventOutputs::add(output::Snapshot snapshot) {
 }
 
 void EventOutputs::add_scheduled(output::Snapshot snapshot) {
+  constexpr double bytes_between_checks = 1 << 26;
+  add_bytes(snapshot);
   all_.push_back(std::move(snapshot));
   of_event_.push_back(0);
+  if (bytes_ < checked_bytes_ + bytes_between_checks) return;
+  checked_bytes_ = bytes_;
+  require_memory();
+}
+
+void EventOutputs::set_all(std::vector<output::Snapshot> snapshots) {
+  all_ = std::move(snapshots);
+  bytes_ = 0;
+  for (const output::Snapshot& snapshot : all_) add_bytes(snapshot);
+}
+
+void EventOutputs::add_bytes(const output::Snapshot& snapshot) {
+  bytes_ += static_cast<double>(sizeof(double) * (5 * snapshot.profile.k.size() + snapshot.displacement.size()) +
+                                sizeof(output::Dislocation) * snapshot.dislocations.size());
 }
 
 /// Deletes every second output of the event in progress if it has 2 N of them. The last one is kept.
@@ -55,15 +72,15 @@ void EventOutputs::thin() {
   all_.resize(kept);
   of_event_.resize(kept);
   stride_ *= 2;
+  bytes_ = 0;
+  for (const output::Snapshot& snapshot : all_) add_bytes(snapshot);
 }
 
 /// \throws NumericsError if the snapshots fill half of the memory. Their file needs about as much again.
 void EventOutputs::require_memory() const {
-  if (all_.empty()) return;
-  const auto bytes = static_cast<double>(5 * sizeof(double) * all_.size() * all_.back().profile.k.size());
-  if (bytes > usable_memory() / 2)
-    throw NumericsError(std::to_string(all_.size()) + " outputs of slip events need " + digits(bytes / 1e9, 3) +
-                        " GB of memory; fewer for each event are needed");
+  if (bytes_ > usable_memory() / 2)
+    throw NumericsError(std::to_string(all_.size()) + " outputs need " + digits(bytes_ / 1e9, 3) +
+                        " GB of memory; fewer are needed");
 }
 
 void EventOutputs::archive(Archive& a) {

@@ -24,20 +24,21 @@ class EventOutputs {
   bool wants(std::size_t event);
   /// Adds the snapshot that `wants` asked for.
   void add(output::Snapshot snapshot);
-  /// Adds the snapshot of an output time.
+  /// Adds the snapshot of an output time. \throws NumericsError if the snapshots do not fit into memory.
   void add_scheduled(output::Snapshot snapshot);
 
   const std::vector<output::Snapshot>& all() const { return all_; }
   std::size_t scheduled() const;  ///< number of snapshots of output times
 
   /// Sets the snapshots for an archive that reads; the last ones may be missing.
-  void set_all(std::vector<output::Snapshot> snapshots) { all_ = std::move(snapshots); }
+  void set_all(std::vector<output::Snapshot> snapshots);
   /// Writes or reads everything but the snapshots. \throws InputError if they do not fit what it reads.
   void archive(Archive& a);
 
  private:
   void thin();
   void require_memory() const;
+  void add_bytes(const output::Snapshot& snapshot);
 
   std::size_t per_event_;
   std::size_t event_ = 0;   ///< the event in progress; 0: none
@@ -45,7 +46,8 @@ class EventOutputs {
   std::size_t stride_ = 1;  ///< steps from one output to the next
   std::size_t steps_ = 0;   ///< steps since the last output
   std::vector<output::Snapshot> all_;
-  std::vector<char> of_event_;  ///< for each snapshot, whether it is of an event
+  double bytes_ = 0, checked_bytes_ = 0;  ///< bytes of their arrays, now and at the last check
+  std::vector<char> of_event_;            ///< for each snapshot, whether it is of an event
 };
 
 }  // namespace slipfront::chain

@@ -55,6 +55,21 @@ std::string Run::saved() const { return slipfront::saved(*this); }
 const std::vector<Snapshot>& Run::snapshots() const { return outputs_->all(); }
 bool Run::finished() const { return outputs_->scheduled() == schedule_.times.size(); }
 double Run::window() const { return observer_->window(); }
+std::vector<double> Run::sites() const {
+  const Grid& grid = chain_->problem().grid;
+  std::vector<double> x(grid.sites);
+  for (std::size_t j = 0; j < x.size(); ++j) x[j] = grid.x(j) / scale_;
+  return x;
+}
+
+output::PathSettings Run::path_settings() const {
+  // A dislocation and an antidislocation that meet are invisible for up to 2 widths over c, if they are slow.
+  constexpr double widths = 4;
+  const Problem& problem = chain_->problem();
+  const double length = static_cast<double>(problem.grid.sites) * problem.grid.spacing;
+  return {.ring_length = problem.boundary.periodic ? length / scale_ : 0, .meeting_time = widths / scale_};
+}
+
 Balance Run::balance() const { return observer_->balance(); }
 
 Averages Run::averages() const {
@@ -87,7 +102,8 @@ bool Run::go(const std::function<bool()>& interrupted) {
   while (!finished()) {
     const double time = schedule_.times[outputs_->scheduled()];
     if (!advance_to(time * scale_, interrupted)) return false;
-    outputs_->add_scheduled(observer_->snapshot(time));
+    Snapshot snapshot = observer_->snapshot(time);
+    chain_->ranks().together([&] { outputs_->add_scheduled(std::move(snapshot)); });
     if (!finished()) refuse_wrong(checks.findings());
   }
   final_findings_ = checks.findings();

@@ -175,6 +175,7 @@ Snapshot RunObserver::snapshot(double time) const {
   find_fronts(s, velocities);
   if (!chain_.problem().substrate) s.energy.phonons = none;  // no trains to compare with
   add_energy(s, now);
+  add_sites(s, time);
   output::complete(s, schedule_);
   return s;
 }
@@ -280,6 +281,16 @@ void RunObserver::add_energy(Snapshot& s, const Totals& now) const {
   if (!chain_.problem().friction.changes_contacts()) return;
   s.energy.contacts = flows.by_contacts / c;
   s.pore_pressure_at_origin = pore_pressure_at_origin();
+}
+
+/// Adds u at the sites and the dislocations, if they are wanted.
+void RunObserver::add_sites(Snapshot& s, double time) const {
+  const double c = scaled_.scale;
+  if (schedule_.displacement) s.displacement = displacements(chain_, c * time);
+  if (schedule_.dislocations) s.dislocations = chain::dislocations(chain_, c * time);
+  for (double& u : s.displacement) u /= c;
+  for (Dislocation& d : s.dislocations) d.x /= c;
+  output::sort(s.dislocations);
 }
 
 /// Finds fronts in the profile, and the leading front also from the outermost dislocation if one side is empty.

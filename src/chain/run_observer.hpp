@@ -66,6 +66,7 @@ class RunObserver {
   std::vector<double> add_profile(output::Snapshot& snapshot, double time) const;
   void add_origin(output::Snapshot& snapshot, double time) const;
   void add_energy(output::Snapshot& snapshot, const Totals& now) const;
+  void add_sites(output::Snapshot& snapshot, double time) const;
   void find_fronts(output::Snapshot& snapshot, const std::vector<double>& velocities) const;
   double contact_at(double x) const;
   double pore_pressure_at_origin() const;

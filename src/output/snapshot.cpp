@@ -1,10 +1,18 @@
 #include "slipfront/output/snapshot.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <tuple>
 
 namespace slipfront::output {
+
+void sort(std::vector<Dislocation>& dislocations) {
+  std::sort(dislocations.begin(), dislocations.end(), [](const Dislocation& a, const Dislocation& b) {
+    return std::tie(a.x, a.level, a.sign) < std::tie(b.x, b.level, b.sign);
+  });
+}
 
 Observed observed_fronts(const std::vector<double>& x, const std::vector<double>& speed, double level, double left,
                          double right) {

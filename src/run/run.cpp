@@ -76,6 +76,8 @@ ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine
                    .schedule = scenario::pulse_schedule(scenario, scenario::stated_problem(scenario)),
                    .need = {},
                    .file = scenario.file};
+    plan.schedule.displacement = scenario.output.displacement;
+    plan.schedule.dislocations = scenario.output.dislocations;
     scenario::require_memory(scenario, plan.chain, share_of_machine);
     plan.need = scenario::estimate_of(scenario, plan.chain);
     return plan;
@@ -109,6 +111,8 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
   Result<chain::Run> result{.run = begin(plan, options),
                             .metadata = metadata_of(scenario, "chain", plan.schedule.x_edges)};
   const chain::Run& run = *result.run;
+  if (plan.schedule.displacement) result.metadata.sites = run.sites();
+  result.metadata.paths = run.path_settings();
   const long first = run.steps();
   const auto begun = Clock::now();
   const bool reached =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "foundation/machine.hpp"
@@ -29,6 +30,23 @@ Estimate observed(const Scenario& s) {
 
 double sites_of(const chain::ScaledProblem& c) { return c.scale * (c.right - c.left) / c.spacing + 1; }
 
+/// The number of dislocations in a chain at its start.
+double dislocations_of(const chain::ScaledProblem& c) {
+  constexpr int samples = 2000;
+  double sum = 0;
+  for (int i = 0; i < samples; ++i) sum += std::fabs(c.stress(c.left + (c.right - c.left) * (i + 0.5) / samples));
+  return c.scale * (c.right - c.left) * sum / samples / (2 * std::numbers::pi);
+}
+
+/// Estimates memory and disk for u at the sites and for the dislocations of all outputs. Dislocations that come in
+/// later are not counted.
+Estimate of_sites(const Scenario& s, const chain::ScaledProblem& c, double outputs) {
+  constexpr double in_file = 2 * double_size, in_memory = 9 * double_size;  // bytes for each dislocation
+  const double displacements = s.output.displacement ? double_size * outputs * sites_of(c) : 0;
+  const double dislocations = s.output.dislocations ? outputs * dislocations_of(c) : 0;
+  return {outputs, displacements + in_memory * dislocations, displacements + in_file * dislocations};
+}
+
 double memory_of(const chain::ScaledProblem& c) {
   chain::Problem p;  // only the members on which memory depends
   p.friction = c.friction;
@@ -50,6 +68,20 @@ void require(const Scenario& s, const Estimate& need, const char* key, const std
                     .allowed = by_outputs ? "fewer outputs, or fewer output.variables" : allowed});
 }
 
+/// Refuses output.displacement or output.dislocations if the run would fit without them.
+void require_sites_fit(const Scenario& s, const chain::ScaledProblem& c, const Estimate& need) {
+  const double have = usable_memory(), sites = of_sites(s, c, need.outputs).memory_with_file();
+  if (need.memory_with_file() <= have || need.memory_with_file() - sites > have) return;
+  throw InputError({.file = s.file,
+                    .key = s.output.displacement ? "output.displacement" : "output.dislocations",
+                    .value = "true",
+                    .problem = digits(need.outputs, 4) + " outputs of " + digits(sites_of(c), 4) + " sites and " +
+                               digits(dislocations_of(c), 4) + " dislocations need " +
+                               digits(need.memory_with_file() / 1e9, 3) + " GB of memory, this process may have " +
+                               digits(have / 1e9, 3) + " GB",
+                    .allowed = "fewer outputs or sites, or false"});
+}
+
 }  // namespace
 
 Estimate estimate_of(const Scenario& s, const pulse::Problem& problem) {
@@ -61,8 +93,9 @@ Estimate estimate_of(const Scenario& s, const pulse::Problem& problem) {
 
 Estimate estimate_of(const Scenario& s, const chain::ScaledProblem& chain) {
   Estimate need = observed(s);
-  need.memory += memory_of(chain);
-  need.disk += chain::disk_needed(sites_of(chain));
+  const Estimate sites = of_sites(s, chain, need.outputs);
+  need.memory += memory_of(chain) + sites.memory;
+  need.disk += chain::disk_needed(sites_of(chain)) + sites.disk;
   return need;
 }
 
@@ -87,6 +120,7 @@ void require_memory(const Scenario& s, const pulse::Problem& problem) {
 void require_memory(const Scenario& s, const chain::ScaledProblem& chain, double share_of_machine) {
   Estimate need = estimate_of(s, chain);
   need.memory -= (1 - share_of_machine) * memory_of(chain);
+  require_sites_fit(s, chain, need);
   require(s, need, s.chain.spacing ? "chain.spacing" : "chain.scale", " and " + digits(sites_of(chain), 4) + " sites",
           "fewer sites, cells or outputs");
 }

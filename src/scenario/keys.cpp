@@ -280,14 +280,17 @@ std::vector<Key> output_keys() {
   const Key lines =
       other_key("output", "lines", KeyType::truth, "false",
                 "whether the file of a plane has the rupture front or, with --direct, all dislocation lines");
-  return {times,
-          number_key("output", "every", ModelUnit::time, above_zero, "none",
-                     "interval between the times of results, in place of times"),
-          per_event,
-          variables,
-          fronts,
-          probes,
-          lines};
+  return {
+      times,
+      number_key("output", "every", ModelUnit::time, above_zero, "none",
+                 "interval between the times of results, in place of times"),
+      per_event,
+      variables,
+      fronts,
+      other_key("output", "displacement", KeyType::truth, "false", "whether the file of a chain has u at every site"),
+      other_key("output", "dislocations", KeyType::truth, "false", "whether the file of a chain has every dislocation"),
+      probes,
+      lines};
 }
 
 }  // namespace

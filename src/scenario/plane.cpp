@@ -61,7 +61,7 @@ void refuse_other_tables(const Document& document) {
     if (chain.has(key->name) && key->name != "scale" && key->name != "spacing")
       throw chain.refuse(key->name, "does not fit [plane]", "chain.scale and chain.spacing");
   const Section output(document, "output");
-  for (const std::string_view key : {"per_event", "variables", "fronts"})
+  for (const std::string_view key : {"per_event", "variables", "fronts", "displacement", "dislocations"})
     if (output.has(key)) throw output.refuse(key, "does not fit [plane]", "times, every, probes and lines");
 }
 

@@ -100,6 +100,8 @@ Output read_output(const Document& document, double end) {
     throw section.refuse("per_event", "without [loading] there are no slip events", "with [loading]");
   output.variables = read_variables(section);
   section.read("fronts", output.fronts);
+  section.read("displacement", output.displacement);
+  section.read("dislocations", output.dislocations);
   return output;
 }
 

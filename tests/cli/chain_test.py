@@ -120,12 +120,22 @@ class Chain(CommandLine):
     def test_refuses(self):
         case = os.path.join(SOURCE, "cases/step.toml")
         for change, words in [("chain.spacing=0.9", ["spacing", "1.5"]), ("chain.scale=1e13", ["GB"]), ("chain.scale=0", ["scale"]),
-                              ("chain.model=lattice", ["chain.spacing"]), ("chain.left=open", ["absorbing"]), ("chain.periodic=yes", ["true or false"])]:
+                              ("chain.model=lattice", ["chain.spacing"]), ("chain.left=open", ["absorbing"]), ("chain.periodic=yes", ["true or false"]),
+                              ("output.dislocations=1", ["output.dislocations", "true or false"]), ("output.displacement=yes", ["true or false"])]:
             with self.subTest(change=change):
                 self.refused(2, "chain", case, "--set", "chain.model=sine-gordon", "--set", "time.end=60", "--set", change, says=words)
         made = os.path.join(os.path.dirname(self.file("x", "")), "pulse.nc")
         self.ok("pulse", case, "-o", made)
         self.refused(2, "chain", case, "--resume", made, says=["resume"])
+
+    def test_refuses_more_sites_and_dislocations_than_fit(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        many = ["chain", case, "--set", "chain.scale=1e6", "output.every=1e-5", "pulse.cells=10", "--set"]
+        for key in ("output.displacement", "output.dislocations"):
+            self.refused(2, *many, f"{key}=true", "--check", says=[key, "GB of memory", "fewer outputs"])
+        self.ok(*many, f"{key}=false", "--check")
+        plane = os.path.join(SOURCE, "cases/plane-wave.toml")
+        self.refused(2, "plane", plane, "--set", f"{key}=true", says=[key, "does not fit [plane]"])
 
     def test_a_killed_and_resumed_run_writes_the_same_file(self):
         self.killed_and_resumed("chain", 4)

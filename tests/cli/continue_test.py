@@ -91,7 +91,7 @@ class Continue(CommandLine):
             self.same_as_one_run("pulse", STEP, (1, end), (*settings, "friction.law=viscous", "friction.coefficient=20"))
 
     def test_a_finished_chain_continues_to_the_same_bytes(self):
-        for scale, settings in ((300, ()), (30, ("friction.law=viscous", "friction.coefficient=0.5")), (100, AGEING),
+        for scale, settings in ((300, ()), (30, ("friction.law=viscous", "friction.coefficient=0.5")), (100, (*AGEING, "output.displacement=true", "output.dislocations=true")),
                                 (3000, ("friction.law=viscous", "friction.coefficient=0.5"))):
             with self.subTest(scale=scale):
                 ends = (0.2, 0.45) if scale == 3000 else (1, 2.5)
@@ -102,7 +102,7 @@ class Continue(CommandLine):
         whole = self.same_as_one_run("chain", case, (60000, 120000, 200000), ("output.every=50000",))
         self.assertEqual(len(whole["events"]), 4)
         within = whole["events"][2]["onset"] + 0.5 * whole["events"][2]["duration"]
-        self.same_as_one_run("chain", case, (60000, within, 160000), ("output.every=50000", "output.per_event=5"))
+        self.same_as_one_run("chain", case, (60000, within, 160000), ("output.every=50000", "output.per_event=5", "output.dislocations=true"))
         self.same_as_one_run("chain", STEP, (1, 2), (*DOMAIN, "chain.scale=30", "chain.steps=implicit", *AGEING))
 
     def test_a_finished_plane_continues_to_the_same_bytes(self):

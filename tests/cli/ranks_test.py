@@ -63,7 +63,7 @@ probes = [[1.6, 0], [0, 1.6]]
 class Ranks(CommandLine):
     def test_a_chain_writes_the_same_file(self):
         case = self.slow_case()
-        same = self.under_mpirun(2, os.path.dirname(case), "chain", case, "--set", "chain.scale=500")
+        same = self.under_mpirun(2, os.path.dirname(case), "chain", case, "--set", "chain.scale=500", "output.displacement=true", "output.dislocations=true")
         self.assertEqual(same["ranks"], 2)
         refused = mpirun(2, "chain", case, "--set", "chain.scale=500", "--set", "chain.spacing=0.9")
         self.assertEqual(refused.returncode, 2)
@@ -72,7 +72,8 @@ class Ranks(CommandLine):
     def test_a_loaded_chain_writes_the_same_file(self):
         folder = os.path.dirname(self.file("x", ""))
         ring = [os.path.join(SOURCE, "cases/stick-slip.toml"), "--set", "domain.left=-30", "--set", "domain.right=30", "--set", "chain.spacing=0.1",
-                "--set", "output.every=5e3", "--set", "output.per_event=9", "--set", "output.fronts=12", "--set", "loading.velocity=3e-3", "--set", "chain.tolerance=0.1"]
+                "--set", "output.every=5e3", "--set", "output.per_event=9", "--set", "output.fronts=12", "--set", "loading.velocity=3e-3", "--set", "chain.tolerance=0.1",
+                "--set", "output.displacement=true", "output.dislocations=true"]
         same = self.under_mpirun(3, folder, "chain", *ring, "--set", "time.end=2e4")
         self.assertGreaterEqual(same["event_count"], 2)
         # Three processes continue a finished run of one.

@@ -74,6 +74,29 @@ class Figures(PythonCommands):
         self.assertLess((np.abs(np.ma.filled(image, np.inf) - sound) > 1e-9).mean(), 0.01)
         self.assertLess(plots.profiles(pulse).axes[0].get_ylim()[1], 1.2 * highest)
 
+    def test_paths(self):
+        settings = {"chain.scale": 30, "chain.spacing": 0.2, "domain.left": -2, "domain.right": 2, "time.end": 1.5, "output.every": 0.25,
+                    "output.dislocations": True, "output.displacement": True}
+        chain = slipfront.chain(STEP, set=settings)
+        position, level = chain["dislocation_position"], chain["dislocation_level"]
+        self.assertEqual(chain.sizes["dislocation"], chain.attrs["dislocations"])
+        self.assertTrue((position.diff("time") >= 0).all() or (position.diff("time").max() > 0.01))
+        np.testing.assert_array_equal(level, np.broadcast_to(level[0], level.shape))
+        # At the position of a dislocation, u passes (2 n + 1) pi.
+        for time in (0, -1):
+            u = np.interp(position[time], chain["site"], chain["displacement"][time]) * 30
+            np.testing.assert_allclose(u, (2 * level[time] + 1) * np.pi, atol=0.05)
+        self.assertEqual(choose.kinds_of(chain), ["space-time", "profiles", "paths"])
+        line = plots.paths(chain).axes[0].lines[0]
+        drawn = line.get_xdata()
+        np.testing.assert_array_equal(drawn[np.isfinite(drawn)], position.transpose("dislocation", "time").values.ravel())
+        # With antidislocations there are two colours and a legend, and a gap in a path is bridged.
+        chain["dislocation_sign"][1] = -1
+        position[2, 0] = np.nan
+        figure = plots.paths(chain)
+        self.assertEqual(len(figure.legends), 1)
+        self.assertEqual(int(np.isfinite(figure.axes[0].lines[0].get_xdata()).sum()), position.size - 1 - chain.sizes["time"])
+
     def test_slip_backward_is_explained(self):
         hill = {"initial": {"profile": "formula", "formula": "0.3 + 0.5*exp(-x^2)"}, "domain": {"left": -6, "right": 6}, "time": {"end": 2}}
         backward = "below 0: slips backward, where stress rises with x"

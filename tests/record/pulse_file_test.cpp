@@ -60,6 +60,30 @@ TEST(PulseFile, RestoresEveryBit) {
   expect_equal(run.snapshots, snapshots);
 }
 
+/// The dislocations of the second snapshot are one that is new and one of the first snapshot, with another level.
+TEST(PulseFile, RestoresSitesAndDislocations) {
+  const TemporaryFolder folder;
+  auto snapshots = sample_snapshots(3, 7);
+  slipfront::record::PulseMetadata metadata = sample_metadata(7);
+  metadata.sites = {-1, -0.9, 1.0 / 3};
+  for (Snapshot& s : snapshots) s.displacement = {s.time / 3, -0.0, 1e-310};
+  snapshots[1].dislocations = {{-0.5, 1, -7}, {0.1, -1, -7}};
+  snapshots[2].dislocations = {{-0.51, 1, -7}, {0.11, -1, -7}, {1.0 / 3, 1, -7}};
+  write_pulse(folder / "a.nc", metadata, snapshots, sample_state(), true);
+  const Checkpoint run = read_checkpoint(folder / "a.nc");
+  expect_equal(run.snapshots, snapshots);
+  for (std::size_t i = 0; i < snapshots.size(); ++i) {
+    EXPECT_EQ(bits(run.snapshots[i].displacement), bits(snapshots[i].displacement));
+    ASSERT_EQ(run.snapshots[i].dislocations.size(), snapshots[i].dislocations.size());
+    for (std::size_t j = 0; j < snapshots[i].dislocations.size(); ++j) {
+      const auto &read = run.snapshots[i].dislocations[j], &written = snapshots[i].dislocations[j];
+      EXPECT_EQ(bits({read.x}), bits({written.x}));
+      EXPECT_EQ(read.sign, written.sign);
+      EXPECT_EQ(read.level, written.level);
+    }
+  }
+}
+
 TEST(PulseFile, AcceptsARunWithoutSnapshots) {
   const TemporaryFolder folder;
   write_pulse(folder / "a.nc", sample_metadata(1), {}, "", true);

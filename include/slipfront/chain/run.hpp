@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "slipfront/chain/chain.hpp"
+#include "slipfront/output/dislocation_paths.hpp"
 #include "slipfront/output/quantities.hpp"
 #include "slipfront/output/self_check.hpp"
 #include "slipfront/output/snapshot.hpp"
@@ -96,6 +97,8 @@ class Run {
   double time() const { return chain_->time() / scale_; }  ///< in the scenario's units
   long steps() const { return chain_->steps(); }
   double scale() const { return scale_; }
+  std::vector<double> sites() const;           ///< positions of the sites, in the scenario's x
+  output::PathSettings path_settings() const;  ///< how to follow its dislocations
   /// Width of the average of the slip at x = 0, a box, in the scenario's x.
   double window() const;
   /// (all) The averages of the last snapshot. Those of profiles have windows of at least two output cells.

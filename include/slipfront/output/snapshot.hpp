@@ -13,6 +13,8 @@ struct Schedule {
   std::vector<double> times;    ///< ascending, from 0; one snapshot each
   std::vector<double> x_edges;  ///< edges of the cells of the output grid
   std::size_t per_event = 0;    ///< further snapshots of each slip event; 0: none
+  bool displacement = false;    ///< whether snapshots of a chain have u at all sites
+  bool dislocations = false;    ///< whether they have all dislocations
   double threshold = 1e-3;      ///< slip velocity at an observed front, as a fraction of the peak slip velocity
 };
 
@@ -61,6 +63,15 @@ struct Energy {
   double contacts = 0;  ///< energy that contacts supplied as their strength changed
 };
 
+/// One dislocation of a chain: u passes (2 level + 1) pi.
+struct Dislocation {
+  double x;
+  int sign;  ///< +1: u falls by 2 pi with x; -1: an antidislocation
+  long level;
+};
+/// Sorts dislocations by x.
+void sort(std::vector<Dislocation>& dislocations);
+
 /// The results at one time. Its numbers are declared in quantities.cpp.
 struct Snapshot {
   double time;
@@ -76,6 +87,9 @@ struct Snapshot {
   double loading_force = std::numeric_limits<double>::quiet_NaN();   ///< mean force of springs everywhere on a site
   double loading_stress = std::numeric_limits<double>::quiet_NaN();  ///< stress at the end that a spring pulls
   double pore_pressure_at_origin = 0;                                ///< over the normal stress
+  std::vector<double> displacement =
+      {};  ///< u at the sites, in the unit of slip; on rank 0, if the schedule asks for it
+  std::vector<Dislocation> dislocations = {};  ///< ascending in x, if the schedule asks for them
 };
 
 }  // namespace slipfront::output

@@ -91,6 +91,8 @@ struct Output {
   int per_event = 0;                   ///< further outputs of each slip event
   std::vector<std::string> variables;  ///< all if empty
   int fronts = 0;                      ///< positions at which a loaded chain records the arrival of slip events
+  bool displacement = false;           ///< whether the file of a chain has u at every site
+  bool dislocations = false;           ///< whether it has every dislocation
 };
 
 struct Scenario {

@@ -13,6 +13,7 @@ KINDS = {
     "comparison": ("comparison", {"level", "time", "x", "slip_at_origin", "name"}),
     "space-time": ("space_time", {"time", "x", "x_bounds"}),
     "profiles": ("profiles", {"time", "x"}),
+    "paths": ("paths", {"time", "x", "dislocation_position"}),
     "events": ("events", {"rupture_velocity", "stress", "frictionless_slip_velocity"}),
     "relations": ("relations", {"rupture_velocity", "stress", "leading_velocity", "slip_velocity"}),
     "corner": ("corner", {"sample"}),
@@ -30,7 +31,7 @@ def kinds_of(dataset) -> list:
     if {"draw", "draw_rupture_velocity"} <= there and dataset.sizes["event"] == 1:
         kinds.insert(0, "corner")
     if "time" in dataset.dims and dataset.sizes["time"] < 2:
-        kinds = [kind for kind in kinds if kind not in ("space-time", "loading", "event")]
+        kinds = [kind for kind in kinds if kind not in ("space-time", "loading", "event", "paths")]
     unsuited = {"space-time"} if is_loaded(dataset) else {"loading", "event", "catalogue"}
     kinds = [kind for kind in kinds if kind not in unsuited]
     return kinds[:1] if "level" in dataset.dims or "plane" in kinds else kinds

@@ -3,16 +3,17 @@
 #include <vector>
 
 #include "slipfront/chain/chain.hpp"
+#include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::chain {
 
-/// One dislocation: u passes pi (mod 2 pi).
-struct Dislocation {
-  double x;
-  int sign;  ///< +1: u falls by 2 pi with x; -1: an antidislocation
-};
+using output::Dislocation;
 
-/// (all) All dislocations, from left to right; sixth-order interpolation between sites.
+/// (all) All dislocations at `time` (Sites::window), from left to right; sixth-order interpolation between sites.
+std::vector<Dislocation> dislocations(const Sites& chain, double time);
 std::vector<Dislocation> dislocations(const Sites& chain);
+
+/// (all) u of all sites at `time`. Only rank 0 gets them.
+std::vector<double> displacements(const Sites& chain, double time);
 
 }  // namespace slipfront::chain

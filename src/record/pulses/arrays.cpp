@@ -1,10 +1,18 @@
 #include "record/pulses/arrays.hpp"
 
+#include <memory>
 #include <numeric>
+#include <string>
+#include <utility>
 
+#include "foundation/machine.hpp"
 #include "foundation/math/constants.hpp"
+#include "foundation/text/digits.hpp"
 #include "record/pulses/cf.hpp"
+#include "record/pulses/pulse_layout.hpp"
 #include "record/pulses/pulse_variables.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/output/dislocation_paths.hpp"
 #include "slipfront/output/quantities.hpp"
 
 namespace slipfront::record {
@@ -66,6 +74,60 @@ void add_events(std::vector<Array>& all, const PulseMetadata& metadata) {
                    {}});
 }
 
+void add_displacement(std::vector<Array>& all, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+  if (metadata.sites.empty()) return;
+  all.push_back(coordinate(layout::site, metadata.sites));
+  all.push_back({layout::displacement,
+                 {{"time", snapshots.size()}, {layout::site.name, metadata.sites.size()}},
+                 [&snapshots] {
+                   std::vector<double> values;
+                   values.reserve(snapshots.empty() ? 0 : snapshots.size() * snapshots.front().displacement.size());
+                   for (const Snapshot& s : snapshots)
+                     values.insert(values.end(), s.displacement.begin(), s.displacement.end());
+                   return values;
+                 },
+                 {}});
+}
+
+/// \throws NumericsError if the table of all dislocations at all times is too large.
+void require_memory(const output::DislocationPaths& paths) {
+  const double bytes = 2 * sizeof(double) * static_cast<double>(paths.signs.size() * paths.numbers.size());
+  if (bytes > usable_memory() / 4)
+    throw NumericsError("the paths of " + std::to_string(paths.signs.size()) + " dislocations at " +
+                        std::to_string(paths.numbers.size()) + " times need " + digits(bytes / 1e9, 3) +
+                        " GB; fewer outputs are needed");
+}
+
+void add_dislocations(std::vector<Array>& all, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+  const auto paths =
+      std::make_shared<const output::DislocationPaths>(output::dislocation_paths(snapshots, metadata.paths));
+  const std::size_t count = paths->signs.size();
+  if (count == 0) return;
+  require_memory(*paths);
+  std::vector<double> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 1.0);
+  all.push_back(coordinate(layout::dislocation, std::move(numbers)));
+  const Array::Dimension dislocation{layout::dislocation.name, count};
+  all.push_back({layout::dislocation_sign,
+                 {dislocation},
+                 [paths] { return std::vector<double>(paths->signs.begin(), paths->signs.end()); },
+                 {}});
+  const auto add = [&](const Description& about, double (*get)(const output::Dislocation&)) {
+    all.push_back({about,
+                   {{"time", snapshots.size()}, dislocation},
+                   [&snapshots, paths, count, get] {
+                     std::vector<double> values(snapshots.size() * count, none);
+                     for (std::size_t i = 0; i < snapshots.size(); ++i)
+                       for (std::size_t j = 0; j < snapshots[i].dislocations.size(); ++j)
+                         values[i * count + paths->numbers[i][j]] = get(snapshots[i].dislocations[j]);
+                     return values;
+                   },
+                   {}});
+  };
+  add(layout::dislocation_position, [](const output::Dislocation& d) { return d.x; });
+  add(layout::dislocation_level, [](const output::Dislocation& d) { return static_cast<double>(d.level); });
+}
+
 }  // namespace
 
 Array coordinate(const Description& about, std::vector<double> values, std::string_view axis) {
@@ -110,6 +172,9 @@ std::vector<Array> arrays_of(const PulseMetadata& metadata, const std::vector<do
                    },
                    {}});
   add_events(all, metadata);
+  if (by_level) return all;
+  add_displacement(all, metadata, *levels.front());
+  add_dislocations(all, metadata, *levels.front());
   return all;
 }
 

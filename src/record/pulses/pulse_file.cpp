@@ -31,6 +31,7 @@ void check(const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots
             "times do not ascend");
     for (const FieldVariable* field : fields)
       require((snapshots[i].profile.*field->values).size() + 1 == edges.size(), "a profile has not as many cells as x");
+    require(snapshots[i].displacement.size() == metadata.sites.size(), "the displacement has not as many sites");
   }
 }
 
@@ -51,11 +52,10 @@ bool describe_file(Writer& file, const PulseMetadata& metadata, bool finished) {
 
 /// All of the file.
 void fill(Writer& file, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots,
-          const std::string& solver_state, bool finished, const Fields& fields) {
+          const std::string& solver_state, bool finished, const Fields& fields, const std::vector<Array>& arrays) {
   const bool scenario_in_attribute = describe_file(file, metadata, finished);
   file.attribute(Writer::global, "checksum",
                  layout::checksum(metadata.scenario_text, solver_state, finished, snapshots, fields));
-  const std::vector<Array> arrays = arrays_of(metadata, times_of(snapshots), {&snapshots}, false);
   const Defined defined = define(file, arrays, metadata);
   const int state = opaque(file, layout::solver_state, "state of the solver, to resume the run", solver_state.size());
   const int scenario = scenario_in_attribute ? -1
@@ -79,12 +79,15 @@ void write_pulse(const std::string& path, const PulseMetadata& metadata, const s
                  const std::string& solver_state, bool finished) {
   const Fields fields = chosen_fields(metadata.variables);
   check(metadata, snapshots, fields);
-  const std::size_t cells = metadata.x_edges.size() - 1;
-  const std::size_t arrivals = metadata.fronts.x.size() * (1 + output::front_columns().size() * metadata.events.size());
-  const std::size_t values =
-      snapshots.size() * (fields.size() * cells + output::scalars().size()) + 3 * cells + arrivals;
+  const std::vector<Array> arrays = arrays_of(metadata, times_of(snapshots), {&snapshots}, false);
+  std::size_t values = 0;
+  for (const Array& array : arrays) {
+    std::size_t size = 1;
+    for (const Array::Dimension& dimension : array.dimensions) size *= dimension.size;
+    values += size;
+  }
   write_netcdf(path, values * sizeof(double) + solver_state.size() + (1 << 16),
-               [&](Writer& file) { fill(file, metadata, snapshots, solver_state, finished, fields); });
+               [&](Writer& file) { fill(file, metadata, snapshots, solver_state, finished, fields, arrays); });
 }
 
 }  // namespace slipfront::record

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slipfront/medium/si_units.hpp"
+#include "slipfront/output/dislocation_paths.hpp"
 #include "slipfront/output/slip_event.hpp"
 #include "slipfront/output/snapshot.hpp"
 #include "slipfront/plane/problem.hpp"
@@ -34,6 +35,8 @@ struct PulseMetadata {
   /// apply.
   std::optional<medium::SiUnits> units = {};
   output::FrontRecords fronts = {};  ///< arrivals of these events, over the dimensions event and position
+  std::vector<double> sites = {};    ///< positions of the sites, if the snapshots have their displacement
+  output::PathSettings paths = {};   ///< how to number dislocations
 };
 
 /// An unfinished or a finished run.

@@ -56,6 +56,8 @@ class CheckpointReader {
         read_rows(
             field->about.name,
             {times_, cells_}, [&](std::size_t i) -> auto& { return run.snapshots[i].profile.*field->values; });
+    read_displacement(run.snapshots);
+    read_dislocations(run.snapshots);
     if (text("checksum") != layout::checksum(run.scenario_text, run.solver_state, run.finished, run.snapshots, written))
       fail("the checksum of its content does not match");
     return run;
@@ -156,6 +158,33 @@ class CheckpointReader {
     for (std::size_t i = 0; i < times_; ++i) {
       row(i).resize(size);
       file_.read_row(variable, i, row(i));
+    }
+  }
+
+  void read_displacement(std::vector<Snapshot>& snapshots) const {
+    const auto sites = file_.find(std::string(layout::site.name));
+    if (!sites) return;
+    read_rows(
+        layout::displacement.name, {times_, require_rank(sites->name, 1).shape[0]}, [&](std::size_t i) -> auto& {
+          return snapshots[i].displacement;
+        });
+  }
+
+  void read_dislocations(std::vector<Snapshot>& snapshots) const {
+    const auto numbers = file_.find(std::string(layout::dislocation.name));
+    if (!numbers) return;
+    const std::size_t count = require_rank(numbers->name, 1).shape[0];
+    const std::vector<double> signs = file_.reals(require_shape(layout::dislocation_sign.name, {count}));
+    std::vector<std::vector<double>> x(times_), level(times_);
+    read_rows(
+        layout::dislocation_position.name, {times_, count}, [&](std::size_t i) -> auto& { return x[i]; });
+    read_rows(
+        layout::dislocation_level.name, {times_, count}, [&](std::size_t i) -> auto& { return level[i]; });
+    for (std::size_t i = 0; i < times_; ++i) {
+      for (std::size_t j = 0; j < count; ++j)
+        if (!std::isnan(x[i][j]))
+          snapshots[i].dislocations.push_back({x[i][j], signs[j] > 0 ? 1 : -1, std::lround(level[i][j])});
+      output::sort(snapshots[i].dislocations);
     }
   }
 
