@@ -31,6 +31,8 @@ constexpr SlipEventColumn columns[] = {
       "fewer than three parts moved, all moved at once, or the fit is faster than c"},
      &SlipEvent::rupture_velocity},
     {{"event_complete", "1, or 0 if the run ended within the event", "", "Eq. 1"}, &SlipEvent::complete},
+    {{"event_merged", "number of other events that the event has met, which are part of it", "", "Eq. 1"},
+     &SlipEvent::merged},
 };
 
 constexpr MemberArray<FrontRecord> of_fronts[] = {

@@ -28,6 +28,7 @@ struct SlipEvent {
   /// if the fit is faster than c.
   double rupture_velocity = std::numeric_limits<double>::quiet_NaN();
   double complete = 0;  ///< 1, or 0 if the run ended during the event
+  double merged = 0;    ///< number of other events that it has met; they are part of it
 };
 
 /// One slip event at the positions of FrontRecords.

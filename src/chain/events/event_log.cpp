@@ -105,6 +105,7 @@ void EventLog::join(std::size_t from, std::size_t to) {
   }
   output::SlipEvent& event = events_[index_of(to)];
   event.peak_velocity = std::fmax(event.peak_velocity, events_[index_of(from)].peak_velocity);
+  event.merged += 1 + events_[index_of(from)].merged;
   earlier.origins.insert(earlier.origins.end(), later.origins.begin(), later.origins.end());
   for (auto* owners : {&owner_, &last_owner_}) std::replace(owners->begin(), owners->end(), from, to);
   joined_.push_back({from, to});

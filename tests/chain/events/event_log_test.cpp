@@ -127,6 +127,7 @@ TEST(EventLog, DistantPatchesAreTwoEvents) {
     EXPECT_EQ(events[n].peak_velocity, n == 0 ? 1 : 2);
     EXPECT_NEAR(events[n].rupture_velocity, 0.5, 0.06);
     EXPECT_EQ(events[n].complete, 1);
+    EXPECT_EQ(events[n].merged, 0);
   }
 }
 
@@ -145,6 +146,7 @@ TEST(EventLog, EventsThatMeetAreOne) {
   EXPECT_EQ(event.origin, 4);
   EXPECT_EQ(event.length, 17);
   EXPECT_EQ(event.duration, 20);
+  EXPECT_EQ(event.merged, 1);
   double sum = 0;
   for (const double u : chain.parts.u) sum += u;
   EXPECT_NEAR(event.slip, sum / 24, 1e-12);
