@@ -31,6 +31,7 @@ struct NamedNumber {
 std::vector<NamedNumber> named(const scenario::Numbers& n) {
   using scenario::ModelUnit;
   return {
+      {"least_stable_position", "least stable position", scenario::symbol_of(ModelUnit::position), "m", n.position},
       {"strength_over_direct_effect", "f_0 / a", "", "", n.strength_over_direct_effect},
       {"critical_stiffness", "critical stiffness", scenario::symbol_of(ModelUnit::stiffness), "Pa/m",
        n.critical_stiffness},

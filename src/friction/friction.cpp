@@ -107,6 +107,16 @@ Friction Friction::under(const AlongInterface& share) const {
   return {*definition_, values_, closure_, curve_, std::move(varying)};
 }
 
+Friction Friction::at(double x, double y) const {
+  std::vector<double> values = values_;
+  for (const auto& [name, value] : varying_)
+    if (name != name_of_pressure) values[index_of(*definition_, name)] = value.at(x, y);
+  if (const auto share = varying_.find(name_of_pressure); share != varying_.end())
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (definition_->parameters[i].dimension == Dimension::force) values[i] *= share->second.at(x, y);
+  return {*definition_, std::move(values), closure_, curve_};
+}
+
 std::optional<double> Friction::linear_coefficient(double x, double y) const {
   return linear_ && varies() ? std::optional(*linear_ * columns_.back().at(x, y)) : linear_;
 }

@@ -320,9 +320,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-void add_rate_and_state(const Scenario& s, Numbers& n) {
-  const double f0 = s.friction.parameter("strength"), a = s.friction.parameter("direct_effect"),
-               b = s.friction.parameter("evolution_effect"), slip = s.friction.parameter("characteristic_slip");
+void add_rate_and_state(const Scenario& s, const friction::Friction& friction, Numbers& n) {
+  const double f0 = friction.parameter("strength"), a = friction.parameter("direct_effect"),
+               b = friction.parameter("evolution_effect"), slip = friction.parameter("characteristic_slip");
   if (a > 0) n.strength_over_direct_effect = f0 / a;
   if (!(b > a && slip > 0)) return;  // steady sliding is stable
   const double v = s.loading.acts() ? s.loading.velocity : 0;
@@ -334,13 +334,29 @@ void add_rate_and_state(const Scenario& s, Numbers& n) {
   if (stiffness < critical) n.nucleation_length = 2 * pi / std::sqrt(critical - stiffness);
 }
 
+/// The numbers of friction at the position with the largest critical stiffness.
+Numbers numbers_where_least_stable(const Scenario& s, double left, double right) {
+  constexpr int samples = 2001;
+  Numbers least_stable;
+  for (int i = 0; i < samples; ++i) {
+    const double x = left + (right - left) * i / (samples - 1);
+    Numbers there;
+    there.position = x;
+    add_rate_and_state(s, s.friction.at(x, 0), there);
+    if (i == 0 || there.critical_stiffness > least_stable.critical_stiffness) least_stable = there;
+  }
+  return least_stable;
+}
+
 }  // namespace
 
 Numbers numbers_of(const Scenario& s) {
   Numbers n;
-  if (s.friction.name() == "rate-and-state") add_rate_and_state(s, n);
+  const bool ages = s.friction.name() == "rate-and-state";
+  if (ages && !s.friction.varies()) add_rate_and_state(s, s.friction, n);
   if (s.plane) return n;
   const pulse::Problem problem = stated_problem(s);
+  if (ages && s.friction.varies()) n = numbers_where_least_stable(s, problem.left, problem.right);
   n.length = problem.right - problem.left;
   if (!s.substrate) return n;
   constexpr int samples = 10000;  // midpoint rule

@@ -50,6 +50,7 @@ medium::Dimension kind_of(Dimension dimension) {
 bool varies(const Value& value) {
   if (value.kind == Value::Kind::table) return true;
   if (value.kind != Value::Kind::text || is_quantity(value.text)) return false;
+  if (value.text.find_first_of("*(") != std::string::npos) return true;
   std::string word;
   for (const char c : value.text + " ") {
     if (std::isalnum(static_cast<unsigned char>(c)) || c == '_') {
@@ -67,11 +68,12 @@ bool varies(const Value& value) {
 std::function<double(double, double)> along_rows(const TableFile& file, const Column& column) {
   const Column place{"x", {.least = -farthest, .most = farthest}, file.section.in_file(ModelUnit::position)};
   const auto rows = std::make_shared<const std::vector<std::pair<double, double>>>(file.rows(place, column));
-  return [rows, where = file.section.where(file.key)](double x, double) {
+  return [rows, where = file.section.where(file.key), unit = place.unit](double x, double) {
     const double first = rows->front().first, last = rows->back().first, rounding = 1e-9 * (last - first);
     if (!(x >= first - rounding && x <= last + rounding))
-      throw refused_at(where, "the table gives no value at x = " + shortest(x),
-                       "a table over the whole domain; it has x = " + shortest(first) + " to " + shortest(last));
+      throw refused_at(
+          where, "the table gives no value at x = " + digits(x * unit),
+          "a table over the whole domain; it has x = " + digits(first * unit) + " to " + digits(last * unit));
     const auto next = std::upper_bound(rows->begin() + 1, rows->end() - 1, x,
                                        [](double value, const auto& row) { return value < row.first; });
     const auto& [x0, y0] = *(next - 1);

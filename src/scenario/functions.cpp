@@ -44,10 +44,10 @@ double CheckedFormula::operator()(double x, double y, double t) const {
   std::string position;
   for (const std::string_view variable : variables_)
     position += (position.empty() ? " at " : ", ") + std::string(variable) + " = " +
-                shortest(variable == "x"   ? x
-                         : variable == "y" ? y * ratio_
-                                           : t);
-  throw refused_at(where_, name_ + " is " + shortest(value) + position, limits_.text());
+                shortest(variable == "x"   ? x * length_
+                         : variable == "y" ? y * ratio_ * length_
+                                           : t * time_);
+  throw refused_at(where_, name_ + " is " + shortest(value * unit_) + position, limits_.text());
 }
 
 CheckedFormula read_forcing(const Section& section, std::vector<std::string_view> variables, double ratio) {

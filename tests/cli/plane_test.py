@@ -284,7 +284,7 @@ end = 0.5
         for change, words in [
                 ("domain.left=-1", ["domain", "about a line"]), ("plane.left=4", ["plane.right", "not to the right"]),
                 ("plane.cells=3", ["plane.cells"]), ("initial.profile=tanh", ["initial.profile", "formula, radial"]),
-                ("initial.hold=true", ["initial.hold"]), ("friction.coefficient=y", ["the coefficient is -3.2", "x = -3.2"]),
+                ("initial.hold=true", ["initial.hold"]), ("friction.coefficient=y", ["friction.coefficient is -3.2", "x = -3.2"]),
                 ("friction.coefficient=1+z", ["friction.coefficient", "z"]), ("interface.contact=x", ["contact ratio is -3.2"]),
                 ("forcing.formula=1/(x*0)", ["the forcing"]), ("output.probes=[[9, 0]]", ["output.probes", "outside"]),
                 ("output.probes=[1]", ["output.probes", "not a point"]), ("chain.periodic=true", ["chain.periodic"]),
@@ -294,7 +294,7 @@ end = 0.5
                 self.refused(code, "plane", FRICTION, "--set", change, says=words)
         self.refused(2, "pulse", step, "--set", "output.probes=[[0, 0]]", says=["output.probes", "[plane]"])
         self.refused(2, "pulse", step, "--set", "initial.profile=radial", says=["initial.profile"])
-        self.refused(2, "plane", FRICTION, "--set", "friction.law=coulomb", says=["friction.coefficient", "formula"])
+        self.refused(2, "plane", FRICTION, "--set", "friction.law=coulomb", says=["friction.law", "holds slip at rest"])
         self.refused(2, "plane", FRICTION, "--set", "friction.law=rate-and-state", "friction.coefficient=0.5")
         self.refused(2, "plane", FRICTION, "--set", "friction.law=coulomb", "friction.coefficient=0.5", says=["friction.law"])
 

@@ -93,6 +93,20 @@ TEST(VaryingFriction, IsAtEachPositionTheLawWithTheParametersThere) {
   }
 }
 
+TEST(VaryingFriction, IsUniformAtAPosition) {
+  for (const Friction& friction : all_frictions()) {
+    Friction varying = friction.under(varied(1));
+    for (const Parameter& p : friction.definition().parameters)
+      if (may_vary(p)) varying = varying.with(std::string(p.name), varied(friction.parameter(p.name)));
+    std::vector<double> state(varying.state_size());
+    varying.start(0.3, 0.4, state);
+    const Friction there = varying.at(0.3, 0.4);
+    const double strength = varying.force(0.2, state);
+    EXPECT_NEAR(there.force(0.2, there.state_at_start()), strength, 1e-12 * strength) << friction.name();
+    EXPECT_FALSE(there.varies());
+  }
+}
+
 TEST(VaryingFriction, IsProportionalToTheNormalStress) {
   const AlongInterface share = varied(1);
   for (const Friction& friction : all_frictions()) {

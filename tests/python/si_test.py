@@ -142,7 +142,7 @@ class Results(PythonCommands):
         event = si["events"][0]  # the springs of 0.02 MPa/um shorten by the slip, less the advance of their far ends
         self.assertAlmostEqual(event["stress_drop"] / 0.02e12, event["slip"] - 1e-6 * event["duration"], delta=1e-5 * event["slip"])
         text = self.ok("chain", self.block)
-        self.assertRegex(text, r"\n *s +s +m +m +Pa +Pa +m s-1 +m +m +m s-1 +1\n")
+        self.assertRegex(text, r"\n *s +s +m +m +Pa +Pa +m s-1 +m +m +m s-1 +1 +1\n")
         check = self.ok("pulse", STEP, "--check", "--set", *ROCK, "domain.left='-50 m'", "domain.right='2e4 mm'", "initial.stress_left='80 MPa'")
         self.assertIn("x = -50 m ... 20 m to t = ", check)
 

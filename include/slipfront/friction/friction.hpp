@@ -50,6 +50,8 @@ class Friction {
   /// This friction with a normal stress that varies, as a share of the one that the parameters assume. All forces are
   /// proportional to it.
   Friction under(const AlongInterface& share) const;
+  /// The uniform friction with the parameters and the normal stress of a position.
+  Friction at(double x, double y) const;
   /// Whether a parameter or the normal stress varies.
   bool varies() const { return !columns_.empty(); }
   /// Whether an average by this closure is defined. The paper's closure is undefined for laws with state variables.

@@ -65,6 +65,9 @@ double plane_file_size(const plane::Schedule& schedule);
 
 /// Absent numbers do not apply to the scenario. Lengths are in b / A, stiffness in the unit of the model.
 struct Numbers {
+  /// The position with the largest critical stiffness, if friction varies. The other numbers of friction are those
+  /// there.
+  std::optional<double> position = {};
   std::optional<double> strength_over_direct_effect;  ///< f_0 / a of rate-and-state friction
   /// kappa_c = ((b - a) / D_c) (1 + v^2 / (a D_c)) at the velocity v of the springs: softer springs let steady sliding
   /// become unstable (docs/loading.md).
