@@ -5,16 +5,20 @@
 #include <cstddef>
 #include <cstdint>
 
+// A compiler that weighs the size of these functions stops inlining them where many loops use them, and loops that call
+// are no vector code.
+#define SLIPFRONT_INLINE [[gnu::always_inline]] inline
+
 /// Elementary functions without branches or calls, so that the compiler vectorises loops over them. Their errors are a
 /// few ulp (asinh: 70 ulp), also for tiny arguments.
 namespace slipfront {
 
-inline double at_least(double x, double least) { return x > least ? x : least; }
-inline double at_most(double x, double most) { return x < most ? x : most; }
+SLIPFRONT_INLINE double at_least(double x, double least) { return x > least ? x : least; }
+SLIPFRONT_INLINE double at_most(double x, double most) { return x < most ? x : most; }
 
 /// Returns c_k + c_(k+1) x + ...
 template <std::size_t k = 0, class Real, std::size_t terms>
-inline Real polynomial(const Real (&c)[terms], Real x) {
+SLIPFRONT_INLINE Real polynomial(const Real (&c)[terms], Real x) {
   if constexpr (k + 1 < terms)
     return c[k] + x * polynomial<k + 1>(c, x);
   else
@@ -25,7 +29,7 @@ inline Real polynomial(const Real (&c)[terms], Real x) {
 /// processor need not wait for one before it begins the next. Use it for a single polynomial in a long loop. Several
 /// polynomials in one loop keep the processor busy without it.
 template <std::size_t first, std::size_t size, class Real, std::size_t terms>
-inline Real sum_of_pairs(const Real (&c)[terms], const Real (&powers)[4]) {
+SLIPFRONT_INLINE Real sum_of_pairs(const Real (&c)[terms], const Real (&powers)[4]) {
   if constexpr (size == 1) {
     return c[first];
   } else {
@@ -34,7 +38,7 @@ inline Real sum_of_pairs(const Real (&c)[terms], const Real (&powers)[4]) {
   }
 }
 template <class Real, std::size_t terms>
-inline Real polynomial_by_pairs(const Real (&c)[terms], Real x) {
+SLIPFRONT_INLINE Real polynomial_by_pairs(const Real (&c)[terms], Real x) {
   static_assert(terms <= 16);
   Real powers[4] = {x};
   for (std::size_t k = 1; k < 4; ++k) powers[k] = powers[k - 1] * powers[k - 1];
@@ -52,7 +56,7 @@ inline constexpr double twice_atanh_tail[] = {
 /// to half_log, so that it can compute this and another quotient with one division.
 struct LogRatio {
   double above, below, halvings;
-  LogRatio(double a, double b, double a_less_b) {
+  SLIPFRONT_INLINE LogRatio(double a, double b, double a_less_b) {
     // The difference between the bit patterns of two doubles approximates the binary logarithm of their ratio, to 0.09.
     // Rounded, it is the exponent e in a / b = 2^e f with f in [2/3, 3/2].
     const std::uint64_t e =
@@ -62,7 +66,7 @@ struct LogRatio {
     below = a + lifted;
     halvings = std::bit_cast<double>(e | 0x4330000000000000u) - 4503599627370496.0;
   }
-  double half_log(double per_below) const {
+  SLIPFRONT_INLINE double half_log(double per_below) const {
     constexpr double half_ln2 = 0.34657359027997264;
     const double h = above * per_below, z = h * h;
     return halvings * half_ln2 + (h + h * (z * (polynomial_by_pairs(twice_atanh_tail, z) / 2)));
@@ -73,7 +77,7 @@ struct LogRatio {
 struct ExpParts {
   double power, e;
 };
-inline ExpParts exp_parts(double x) {
+SLIPFRONT_INLINE ExpParts exp_parts(double x) {
   constexpr double magic = 6755399441055744.0;  // adding it rounds to a whole number
   const double shifted = x * 1.4426950408889634 + magic, k = shifted - magic;
   const double r = (x - k * 6.93147180369123816490e-01) - k * 1.90821492927058770002e-10;
@@ -85,19 +89,19 @@ inline ExpParts exp_parts(double x) {
 }
 
 /// exp(x) for |x| < 700.
-inline double exp_branch_free(double x) {
+SLIPFRONT_INLINE double exp_branch_free(double x) {
   const ExpParts at = exp_parts(x);
   return at.power + at.power * at.e;
 }
 
 /// exp(x) - 1 for |x| < 700.
-inline double expm1_branch_free(double x) {
+SLIPFRONT_INLINE double expm1_branch_free(double x) {
   const ExpParts at = exp_parts(x);
   return at.power * at.e + (at.power - 1);
 }
 
 /// ln x for a normal x > 0, from x = 2^e f with f within a factor of sqrt(2) of 1.
-inline double log_branch_free(double x) {
+SLIPFRONT_INLINE double log_branch_free(double x) {
   const std::uint64_t lifted = std::bit_cast<std::uint64_t>(x) + (0x3ff0000000000000u - 0x3fe6a09e667f3bcdu);
   const double e = std::bit_cast<double>((lifted >> 52) | 0x4330000000000000u) - (4503599627370496.0 + 1023.0);
   const double f = std::bit_cast<double>((lifted & 0x000fffffffffffffu) + 0x3fe6a09e667f3bcdu);
@@ -108,13 +112,13 @@ inline double log_branch_free(double x) {
 
 /// Parts of asinh x = 2 half_log(1 / below) for 0 <= x < 1e150, precise also for tiny x. The caller gives
 /// root = (1 + x^2)^(1/2). We use asinh x = ln(1 + up) with up = x + (root - 1).
-inline LogRatio asinh_ratio(double x, double root) {
+SLIPFRONT_INLINE LogRatio asinh_ratio(double x, double root) {
   constexpr double c[] = {1.0 / 2, -1.0 / 8, 1.0 / 16, -5.0 / 128}, few = 1.0 / 4096;
   const double z = x * x, small = z < few ? z : few;
   const double up = x + (z < few ? small * polynomial(c, small) : root - 1);
   return {1 + up, 1, up};
 }
-inline double asinh_branch_free(double x, double root) {
+SLIPFRONT_INLINE double asinh_branch_free(double x, double root) {
   const LogRatio ratio = asinh_ratio(x, root);
   return 2 * ratio.half_log(1 / ratio.below);
 }

@@ -13,7 +13,7 @@ struct AsinhForce {
   double share = 0;
 
   double exponent(double theta) const { return base + share * std::log(theta); }
-  double exponent_branch_free(double theta) const {
+  SLIPFRONT_INLINE double exponent_branch_free(double theta) const {
     return base + share * log_branch_free(at_least(theta, least_theta));
   }
 
