@@ -115,8 +115,8 @@ TEST(WenoFaces, TakeEachInvariantFromItsOwnSide) {
   const double *p = plus.data() + 3, *m = minus.data() + 3, scale = 1.7;
   pulse::weno_faces(faces, p, m, scale, phi.data(), psi.data());
   for (std::size_t f = 0; f < faces; ++f) {
-    const double left = weno5(p[f - 3], p[f - 2], p[f - 1], p[f], p[f + 1]);
-    const double right = weno5(m[f + 2], m[f + 1], m[f], m[f - 1], m[f - 2]);
+    const double left = weno5(plus[f], plus[f + 1], plus[f + 2], plus[f + 3], plus[f + 4]);
+    const double right = weno5(minus[f + 5], minus[f + 4], minus[f + 3], minus[f + 2], minus[f + 1]);
     EXPECT_NEAR(phi[f], scale * (left + right) / 2, 1e-14) << f;
     EXPECT_NEAR(psi[f], scale * std::fmax(left - right, 0.0) / 2, 1e-14) << f;
   }
