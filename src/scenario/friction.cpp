@@ -374,6 +374,21 @@ void check_contacts(const Section& section, const friction::Contacts& contacts, 
     scenario.warnings.push_back("friction.drainage_time is not given: the pores never drain");
 }
 
+using VaryingParameters = std::vector<std::pair<std::string_view, friction::AlongInterface>>;
+
+/// The friction with the parameters and the normal stress that vary.
+friction::Friction varied(const Section& section, friction::Friction friction, const FrictionUnits& units,
+                          const VaryingParameters& varying) {
+  try {
+    if (const auto& share = units.share_of_normal_stress(); share && share->least < share->most)
+      friction = friction.under(*share);
+    for (const auto& [parameter, along] : varying) friction = friction.with(parameter, along);
+  } catch (const InputError& error) {
+    throw section.refuse(error.complaint().key, error.complaint().problem, error.complaint().allowed);
+  }
+  return friction;
+}
+
 }  // namespace
 
 void read_friction(const Document& document, const TableReader& tables, Scenario& scenario) {
@@ -387,7 +402,7 @@ void read_friction(const Document& document, const TableReader& tables, Scenario
     if (section.has(p->name) && law.find(p->name) == nullptr)
       errors.attempt([&] { read_parameter(section, *p, units); });
   std::vector<double> values;
-  std::vector<std::pair<std::string_view, friction::AlongInterface>> varying;
+  VaryingParameters varying;
   for (const Parameter& p : law.parameters)
     errors.attempt([&] {
       const friction::AlongInterface along = read_parameter(section, p, units);
@@ -408,14 +423,7 @@ void read_friction(const Document& document, const TableReader& tables, Scenario
       scenario.warnings.push_back("friction." + std::string(p.name) + " is not given and " + std::string(p.if_missing));
   friction::Friction friction(law, std::move(values), closure,
                               read_curve(section, tables, law.curve, units.vary() || !varying.empty()));
-  try {
-    if (const auto& share = units.share_of_normal_stress(); share && share->least < share->most)
-      friction = friction.under(*share);
-    for (const auto& [parameter, along] : varying) friction = friction.with(parameter, along);
-  } catch (const InputError& error) {
-    throw section.refuse(error.complaint().key, error.complaint().problem, error.complaint().allowed);
-  }
-  scenario.friction = std::move(friction);
+  scenario.friction = varied(section, std::move(friction), units, varying);
   check_contacts(section, scenario.friction.contacts(), scenario);
 }
 
