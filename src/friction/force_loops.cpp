@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "foundation/simd/vector_code.hpp"
+#include "friction/in_parts.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {
@@ -12,8 +13,7 @@ namespace {
 /// Many solves of v + weight f(v) = free at once, by secants. `before` and `excess` are the last v and the excess of
 /// the left side there; `open` is 1 until v is found to rounding.
 struct Secants {
-  static constexpr std::size_t most = 64;
-  double v[most], before[most], excess[most], open[most], weight[most];
+  double v[part_size], before[part_size], excess[part_size], open[part_size], weight[part_size];
 };
 
 /// Starts at v = free, where the force is `force`; `at_rest` is what holds a position at rest.
@@ -55,21 +55,19 @@ void ForceLoops::strengths(std::size_t size, const double* speed, LocalStates st
 
 void ForceLoops::speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
                               double* speed) const {
-  double share[Secants::most];
-  std::fill_n(share, Secants::most, 1.0);
-  for (std::size_t begin = 0; begin < size; begin += Secants::most) {
-    const std::size_t some = std::min(Secants::most, size - begin);
+  double share[part_size];
+  std::fill_n(share, part_size, 1.0);
+  in_parts(size, [&](std::size_t begin, std::size_t some) {
     ForceLoops::speeds_after_under(some, share, free + begin, weight, states.from(begin), speed + begin);
-  }
+  });
 }
 
 void ForceLoops::speeds_after_under(std::size_t size, const double* share, const double* free, double weight,
                                     LocalStates states, double* speed) const {
   constexpr int most_steps = 6;
   Secants s;
-  double at_rest[Secants::most], force[Secants::most];
-  for (std::size_t begin = 0; begin < size; begin += Secants::most) {
-    const std::size_t some = std::min(Secants::most, size - begin);
+  double at_rest[part_size], force[part_size];
+  in_parts(size, [&](std::size_t begin, std::size_t some) {
     const LocalStates theirs = states.from(begin);
     std::fill_n(s.v, some, 0.0);
     for (std::size_t i = 0; i < some; ++i) s.weight[i] = weight * share[begin + i];
@@ -82,7 +80,7 @@ void ForceLoops::speeds_after_under(std::size_t size, const double* share, const
     }
     for (std::size_t i = 0; i < some; ++i)
       speed[begin + i] = s.open[i] == 0 ? s.v[i] : law_.speed_after(free[begin + i], s.weight[i], theirs.at(i));
-  }
+  });
 }
 
 }  // namespace slipfront::friction

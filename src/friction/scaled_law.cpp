@@ -1,37 +1,36 @@
 #include "friction/scaled_law.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
+
+#include "friction/in_parts.hpp"
 
 namespace slipfront::friction {
 namespace {
 
-/// The states of some positions, taken apart into those of the law and the shares.
+/// The states of a part of the positions, taken apart into those of the law and the shares.
 class Apart {
  public:
-  static constexpr std::size_t most = 64;
-
-  Apart(std::size_t size, LocalStates states) {
-    const std::size_t own = states.each - 1;
+  Apart(std::size_t size, LocalStates states) : own_(states.each - 1) {
     thread_local std::vector<double> values;  // kept between calls, which then allocate nothing
-    values.resize(most * own);
+    values.resize(part_size * own_);
+    law_ = values.data();
     for (std::size_t i = 0; i < size; ++i) {
       const LocalState state = states.at(i);
-      std::copy_n(state.begin(), own, values.data() + i * own);
+      std::copy_n(state.begin(), own_, law_ + i * own_);
       share[i] = state.back();
     }
-    law = {values.data(), own};
   }
-  double share[most];
-  LocalStates law;
-};
+  LocalStates law() const { return {law_, own_}; }
+  double* law_values() { return law_; }
+  double share[part_size];
 
-/// Calls `task` with the beginning and the size of parts of at most Apart::most positions.
-template <class Task>
-void in_parts(std::size_t size, const Task& task) {
-  for (std::size_t begin = 0; begin < size; begin += Apart::most) task(begin, std::min(Apart::most, size - begin));
-}
+ private:
+  std::size_t own_;
+  double* law_;
+};
 
 class ScaledLoops final : public ForceLoops {
  public:
@@ -39,7 +38,7 @@ class ScaledLoops final : public ForceLoops {
   void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
     in_parts(size, [&](std::size_t begin, std::size_t some) {
       const Apart at(some, states.from(begin));
-      one_.loops().strengths(some, speed + begin, at.law, force + begin);
+      one_.loops().strengths(some, speed + begin, at.law(), force + begin);
       for (std::size_t i = 0; i < some; ++i) force[begin + i] *= at.share[i];
     });
   }
@@ -47,7 +46,7 @@ class ScaledLoops final : public ForceLoops {
                     double* speed) const override {
     in_parts(size, [&](std::size_t begin, std::size_t some) {
       const Apart at(some, states.from(begin));
-      one_.loops().speeds_after_under(some, at.share, free + begin, weight, at.law, speed + begin);
+      one_.loops().speeds_after_under(some, at.share, free + begin, weight, at.law(), speed + begin);
     });
   }
 
@@ -75,7 +74,7 @@ class ScaledAverage final : public TrainAverage {
   void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
     in_parts(trains.size, [&](std::size_t begin, std::size_t some) {
       const Apart at(some, trains.states.from(begin));
-      one_.average().mean_strengths({some, trains.fastest + begin, trains.s + begin, at.law}, closure, mean + begin,
+      one_.average().mean_strengths({some, trains.fastest + begin, trains.s + begin, at.law()}, closure, mean + begin,
                                     slope == nullptr ? nullptr : slope + begin);
       for (std::size_t i = 0; i < some; ++i) {
         mean[begin + i] *= at.share[i];
@@ -100,12 +99,12 @@ class ScaledEvolution final : public StateEvolution {
   }
   void advance_all(std::size_t size, const Slips& slips, double time, std::size_t each, double* state) const override {
     if (each == 1) return;
+    const std::size_t own = each - 1;
     in_parts(size, [&](std::size_t begin, std::size_t some) {
       double* const to = state + begin * each;
-      const Apart at(some, {to, each});
-      std::vector<double> own(at.law.values, at.law.values + some * (each - 1));
-      one_.advance_all(some, {slips.mean + begin, slips.typical + begin}, time, each - 1, own.data());
-      for (std::size_t i = 0; i < some; ++i) std::copy_n(own.data() + i * (each - 1), each - 1, to + i * each);
+      Apart at(some, {to, each});
+      one_.advance_all(some, {slips.mean + begin, slips.typical + begin}, time, own, at.law_values());
+      for (std::size_t i = 0; i < some; ++i) std::copy_n(at.law_values() + i * own, own, to + i * each);
     });
   }
 

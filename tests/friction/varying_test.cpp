@@ -93,6 +93,17 @@ TEST(VaryingFriction, IsAtEachPositionTheLawWithTheParametersThere) {
   }
 }
 
+/// f_0 / a from 0.3 to 4000, of which e^(f_0 / a) is no double.
+TEST(VaryingFriction, IsTheLawThereForAnyRatioOfStrengthToDirectEffect) {
+  for (const Friction& friction : all_frictions()) {
+    if (friction.definition().find("direct_effect") == nullptr) continue;
+    for (const double a : {1.0, 1e-2, 6e-4, 4e-4, 1e-4}) {
+      const Friction rock = friction.with("direct_effect", a).with("evolution_effect", 0.5 * a);
+      expect_the_law_there(rock.with("direct_effect", varied(a)), {"direct_effect"}, "a = " + std::to_string(a));
+    }
+  }
+}
+
 TEST(VaryingFriction, IsUniformAtAPosition) {
   for (const Friction& friction : all_frictions()) {
     Friction varying = friction.under(varied(1));

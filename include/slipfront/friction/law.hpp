@@ -252,8 +252,6 @@ class VaryingLaw : public Law {
  protected:
   const std::vector<double>& values() const { return values_; }
   const Varying& varying() const { return varying_; }
-
- private:
   L law_at(LocalState state) const {
     thread_local std::vector<double> values;  // kept between calls, which then allocate nothing
     values = values_;
@@ -266,15 +264,7 @@ class VaryingLaw : public Law {
     return state.first(varying_.own);
   }
 
-  class Loops final : public ForceLoops {
-   public:
-    explicit Loops(const VaryingLaw& law) : ForceLoops(law) {}
-    void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
-                      double* speed) const override {
-      for (std::size_t i = 0; i < size; ++i) speed[i] = law_.speed_after(free[i], weight, states.at(i));
-    }
-  };
-  class Average final : public QuadratureAverage {
+  class Average : public QuadratureAverage {
    public:
     explicit Average(const VaryingLaw& law) : QuadratureAverage(law), varying_(law) {}
     double mean_strength(const State& train, double contact, Closure closure, LocalState state) const override {
@@ -284,7 +274,7 @@ class VaryingLaw : public Law {
    private:
     const VaryingLaw& varying_;
   };
-  class Evolution final : public StateEvolution {
+  class Evolution : public StateEvolution {
    public:
     explicit Evolution(const VaryingLaw& law) : law_(law) {}
     void start(std::span<double> state) const override { law_.law_at(state).evolution().start(law_.own(state)); }
@@ -296,6 +286,15 @@ class VaryingLaw : public Law {
     const VaryingLaw& law_;
   };
 
+ private:
+  class Loops final : public ForceLoops {
+   public:
+    explicit Loops(const VaryingLaw& law) : ForceLoops(law) {}
+    void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
+                      double* speed) const override {
+      for (std::size_t i = 0; i < size; ++i) speed[i] = law_.speed_after(free[i], weight, states.at(i));
+    }
+  };
   std::vector<double> values_;
   Varying varying_;
   Loops loops_{*this};

@@ -6,6 +6,7 @@
 
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/vector_code.hpp"
+#include "friction/in_parts.hpp"
 #include "friction/laws/rate_and_state_loops.hpp"
 #include "friction/state/contact_age.hpp"
 #include "friction/train_means/asinh_average.hpp"
@@ -125,16 +126,16 @@ class RateAndState final : public Law {
   ContactAge evolution_;
 };
 
-/// Parameters and states of some positions.
+/// Parameters and states of the positions of a part.
 struct AtPositions {
-  static constexpr std::size_t most = 64;
-  double of[kind][most];  ///< by parameter
-  double theta[most];
-  double log_G[most], G[most];  ///< f = a asinh(w G)
+  double of[kind][part_size];  ///< by parameter
+  double theta[part_size];
+  double log_G[part_size], G[part_size];  ///< f = a asinh(w G)
 };
 
+constexpr double largest_log_G = 650;  ///< G has this range
+
 SLIPFRONT_CLONES void find_G(std::size_t size, AtPositions& at) {
-  constexpr double largest = 650;
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
     const double v0 = at.of[velocity][i];
@@ -142,7 +143,7 @@ SLIPFRONT_CLONES void find_G(std::size_t size, AtPositions& at) {
     const double log_G =
         (at.of[f0][i] + at.of[evolution_effect][i] * aged) / at.of[direct][i] - log_branch_free(2 * v0);
     at.log_G[i] = log_G;
-    at.G[i] = exp_branch_free(at_most(at_least(log_G, -largest), largest));
+    at.G[i] = exp_branch_free(at_most(at_least(log_G, -largest_log_G), largest_log_G));
   }
 }
 
@@ -158,25 +159,24 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
  private:
   static constexpr AsinhForce one{.a = 1, .base = 0, .share = 1};
 
-  /// Calls `task` with the first position of each part, its size, and what holds there.
+  /// Calls `task` with the first position of each part, its size, and the values there.
   template <class Task>
-  void in_parts(std::size_t size, LocalStates states, const Task& task) const {
+  void with_values(std::size_t size, LocalStates states, const Task& task) const {
     AtPositions at;
-    for (std::size_t p = 0; p < kind; ++p) std::fill_n(at.of[p], AtPositions::most, values()[p]);
-    for (std::size_t begin = 0; begin < size; begin += AtPositions::most) {
-      const std::size_t some = std::min(AtPositions::most, size - begin);
+    for (std::size_t p = 0; p < kind; ++p) std::fill_n(at.of[p], part_size, values()[p]);
+    in_parts(size, [&](std::size_t begin, std::size_t some) {
       for (std::size_t i = 0; i < some; ++i) at.theta[i] = states.at(begin + i)[0];
       for (std::size_t c = 0; c < varying().parameters.size(); ++c)
         for (std::size_t i = 0; i < some; ++i) at.of[varying().parameters[c]][i] = states.at(begin + i)[1 + c];
       task(begin, some, at);
-    }
+    });
   }
 
   class Loops final : public ForceLoops {
    public:
     explicit Loops(const VaryingRateAndState& law) : ForceLoops(law), all_(law) {}
     void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
-      all_.in_parts(size, states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+      all_.with_values(size, states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
         find_G(some, at);
         const bool within = forces(one, some, speed + begin, at.G, force + begin);
         for (std::size_t i = 0; i < some; ++i) force[begin + i] *= at.of[direct][i];
@@ -187,8 +187,8 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
     /// v = a v' with v' + weight asinh(a G v') = free / a.
     void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
                       double* speed) const override {
-      all_.in_parts(size, states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
-        double freed[AtPositions::most], aged[AtPositions::most], done[AtPositions::most];
+      all_.with_values(size, states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+        double freed[part_size], aged[part_size], done[part_size];
         find_G(some, at);
         const double* const a = at.of[direct];
         for (std::size_t i = 0; i < some; ++i) {
@@ -206,21 +206,24 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
     const VaryingRateAndState& all_;
   };
 
-  class Average final : public QuadratureAverage {
+  class Average final : public VaryingLaw::Average {
    public:
-    explicit Average(const VaryingRateAndState& law) : QuadratureAverage(law), all_(law), mean_of_one_(law, one) {}
-    double mean_strength(const State& train, double contact, Closure closure, LocalState state) const override {
-      return all_.VaryingLaw::average().mean_strength(train, contact, closure, state);
-    }
+    explicit Average(const VaryingRateAndState& law) : VaryingLaw::Average(law), all_(law), mean_of_one_(law, one) {}
     void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
       if (closure != Closure::consistent) return QuadratureAverage::mean_strengths(trains, closure, mean, slope);
-      all_.in_parts(trains.size, trains.states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+      all_.with_values(trains.size, trains.states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+        const auto find = [&](const TrainAverage& average, std::size_t i, std::size_t count, const double* theta) {
+          const std::size_t first = begin + i;
+          average.mean_strengths({count, trains.fastest + first, trains.s + first, {theta, 1}}, closure, mean + first,
+                                 slope == nullptr ? nullptr : slope + first);
+        };
         find_G(some, at);
-        mean_of_one_.mean_strengths({some, trains.fastest + begin, trains.s + begin, {at.G, 1}}, closure, mean + begin,
-                                    slope == nullptr ? nullptr : slope + begin);
+        find(mean_of_one_, 0, some, at.G);
         for (std::size_t i = 0; i < some; ++i) {
           mean[begin + i] *= at.of[direct][i];
           if (slope != nullptr) slope[begin + i] *= at.of[direct][i];
+          if (!(std::fabs(at.log_G[i]) < largest_log_G))
+            find(all_.law_at(trains.states.at(begin + i)).average(), i, 1, &at.theta[i]);
         }
       });
     }
@@ -230,18 +233,16 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
     AsinhAverage mean_of_one_;
   };
 
-  class Evolution final : public StateEvolution {
+  class Evolution final : public VaryingLaw::Evolution {
    public:
     explicit Evolution(const VaryingRateAndState& law)
-        : all_(law), of_one_(law.values()[kind] != 0 ? ContactAge::Kind::slip : ContactAge::Kind::ageing, 0, 1) {}
-    void start(std::span<double> state) const override { all_.VaryingLaw::evolution().start(state); }
-    void advance(const Slip& slip, double time, std::span<double> state) const override {
-      all_.VaryingLaw::evolution().advance(slip, time, state);
-    }
+        : VaryingLaw::Evolution(law),
+          all_(law),
+          of_one_(law.values()[kind] != 0 ? ContactAge::Kind::slip : ContactAge::Kind::ageing, 0, 1) {}
     void advance_all(std::size_t size, const Slips& slips, double time, std::size_t each,
                      double* state) const override {
-      all_.in_parts(size, {state, each}, [&](std::size_t begin, std::size_t some, AtPositions& at) {
-        double mean[AtPositions::most], typical[AtPositions::most];
+      all_.with_values(size, {state, each}, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+        double mean[part_size], typical[part_size];
         for (std::size_t i = 0; i < some; ++i) {
           mean[i] = slips.mean[begin + i] / at.of[distance][i];
           typical[i] = slips.typical[begin + i] / at.of[distance][i];
