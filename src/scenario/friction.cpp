@@ -1,7 +1,6 @@
 // The table [friction] of a scenario.
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -20,6 +19,8 @@
 namespace slipfront::scenario {
 namespace {
 
+using friction::Closure;
+using friction::Definition;
 using friction::Dimension;
 using friction::Parameter;
 constexpr std::string_view normal_stress = "normal_stress";
@@ -45,23 +46,14 @@ medium::Dimension kind_of(Dimension dimension) {
   return dimension == Dimension::pressure ? medium::Dimension::pressure : dimension_of(model_unit(dimension));
 }
 
-/// Whether a key varies along the interface: by a table, or by a text that is a formula rather than a number with a
-/// unit.
-bool varies(const Value& value) {
-  if (value.kind == Value::Kind::table) return true;
-  if (value.kind != Value::Kind::text || is_quantity(value.text)) return false;
-  if (value.text.find_first_of("*(") != std::string::npos) return true;
-  std::string word;
-  for (const char c : value.text + " ") {
-    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_') {
-      word += c;
-    } else if (word == "x" || word == "y") {
-      return true;
-    } else {
-      word.clear();
-    }
-  }
-  return false;
+/// The parameters of all laws, each name once.
+std::vector<const Parameter*> all_parameters() {
+  std::vector<const Parameter*> all;
+  for (const Definition* law : friction::laws())
+    for (const Parameter& p : law->parameters)
+      if (std::none_of(all.begin(), all.end(), [&](const Parameter* other) { return other->name == p.name; }))
+        all.push_back(&p);
+  return all;
 }
 
 /// Linear between the rows of a table.
@@ -127,6 +119,10 @@ Interface interface_of(const Document& document, double reach) {
 FrictionUnits::FrictionUnits(const Section& friction, const TableReader& tables, const Interface& interface)
     : friction_(friction), tables_(tables), interface_(interface) {
   const Value* const pressed = friction.find(normal_stress);
+  for (const Parameter* p : all_parameters()) {
+    const Value* const value = friction.find(p->name);
+    vary_ = vary_ || (value && p->words.empty() && varies(*value));
+  }
   if (!pressed || !varies(*pressed)) return;
   const friction::AlongInterface along =
       in_range(read_along(normal_stress, *pressed, ModelUnit::none, {.least = 0, .without_least = true}));
@@ -197,7 +193,7 @@ friction::AlongInterface FrictionUnits::in_model(const Parameter& p) const {
   const Value* const value = friction_.find(p.name);
   if (value && varies(*value)) {
     const bool force = p.dimension == Dimension::force, coefficient = force && friction_.has(normal_stress);
-    const bool in_units = !coefficient && (!force || p.unit == friction::force_unit);
+    const bool in_units = !coefficient && (!force || (p.unit == friction::force_unit && !has_curve()));
     const At along = read_along(p.name, *value, in_units ? unit_of(p) : ModelUnit::none, limits);
     if (!coefficient) return in_range(along);
     return in_range(
@@ -217,8 +213,7 @@ double FrictionUnits::uniform(const Parameter& p) const {
   if (value && (p.dimension == Dimension::number || (number && !coefficient))) {
     friction_.check(p.name, *value, {});
     // The coefficient of a power of w has no SI unit, and that of a formula or a file is a factor.
-    const bool curve = friction_.has("formula") || friction_.has("file");
-    if (!force || (p.unit == friction::force_unit && !curve)) friction_.check_unit(p.name, *value, unit_of(p));
+    if (!force || (p.unit == friction::force_unit && !has_curve())) friction_.check_unit(p.name, *value, unit_of(p));
     return value->number;
   }
   if (value && force && p.unit != friction::force_unit)
@@ -252,7 +247,8 @@ void try_curve(const Section& section, const friction::Curve& curve, double fast
 /// stress, by its unit or by the normal stress. The curve is then a pure number, as it is in the units of the model.
 double force_in_file(const Section& section) {
   const Value* const coefficient = section.find("coefficient");
-  const bool stress = section.has("normal_stress") || (coefficient && coefficient->kind == Value::Kind::text);
+  const bool stress =
+      section.has("normal_stress") || (coefficient && coefficient->kind == Value::Kind::text && !varies(*coefficient));
   return stress ? 1 : section.in_file(ModelUnit::force);
 }
 
@@ -306,10 +302,6 @@ friction::Curve read_curve(const Section& section, const TableReader& tables, fr
   return {};
 }
 
-using friction::Closure;
-using friction::Definition;
-using friction::Parameter;
-
 /// Lists the laws that have the parameter `key`, such as: "viscous", "coulomb" or "power". If `key` is empty, it lists
 /// all laws that have parameters.
 std::string laws_with(std::string_view key) {
@@ -321,16 +313,6 @@ std::string laws_with(std::string_view key) {
   for (std::size_t i = 0; i < names.size(); ++i)
     text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
   return text;
-}
-
-/// The parameters of all laws, each name once.
-std::vector<const Parameter*> all_parameters() {
-  std::vector<const Parameter*> all;
-  for (const Definition* law : friction::laws())
-    for (const Parameter& p : law->parameters)
-      if (std::none_of(all.begin(), all.end(), [&](const Parameter* other) { return other->name == p.name; }))
-        all.push_back(&p);
-  return all;
 }
 
 /// Rejects a key without effect, because it is probably a mistake of the user.
@@ -421,8 +403,7 @@ void read_friction(const Document& document, const TableReader& tables, Scenario
   for (const Parameter& p : law.parameters)
     if (!p.if_missing.empty() && !section.has(p.name))
       scenario.warnings.push_back("friction." + std::string(p.name) + " is not given and " + std::string(p.if_missing));
-  friction::Friction friction(law, std::move(values), closure,
-                              read_curve(section, tables, law.curve, units.vary() || !varying.empty()));
+  friction::Friction friction(law, std::move(values), closure, read_curve(section, tables, law.curve, units.vary()));
   scenario.friction = varied(section, std::move(friction), units, varying);
   check_contacts(section, scenario.friction.contacts(), scenario);
 }

@@ -44,7 +44,7 @@ class FrictionUnits {
   friction::AlongInterface in_model(const friction::Parameter& parameter) const;
   /// The normal stress over its largest value, if it varies.
   const std::optional<friction::AlongInterface>& share_of_normal_stress() const { return share_; }
-  /// Whether any key varies.
+  /// Whether any key is a formula or a column.
   bool vary() const { return vary_; }
   /// The unit of a parameter; none for a number, a share of the normal stress, and so on.
   static ModelUnit unit_of(const friction::Parameter& parameter);
@@ -53,6 +53,7 @@ class FrictionUnits {
   using At = std::function<double(double, double)>;
   double si_of(const friction::Parameter& parameter) const;
   double uniform(const friction::Parameter& parameter) const;
+  bool has_curve() const { return friction_.has("formula") || friction_.has("file"); }
   double normal_stress_in_si() const;
   At read_along(std::string_view key, const Value& value, ModelUnit unit, const Limits& limits) const;
   friction::AlongInterface in_range(At at) const;

@@ -1,6 +1,7 @@
 #include "scenario/section.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 
@@ -28,6 +29,23 @@ bool has_unit(const Key& key, const Value& value) {
 
 bool is_quantity(std::string_view text) {
   return trimmed(text).ends_with("sigma_N") || medium::unit_of(text).has_value();
+}
+
+bool varies(const Value& value) {
+  if (value.kind == Value::Kind::table) return true;
+  if (value.kind != Value::Kind::text || is_quantity(value.text)) return false;
+  if (value.text.find_first_of("*(") != std::string::npos) return true;
+  std::string word;
+  for (const char c : value.text + " ") {
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_') {
+      word += c;
+    } else if (word == "x" || word == "y") {
+      return true;
+    } else {
+      word.clear();
+    }
+  }
+  return false;
 }
 
 std::string first_in_si(const Document& document) {
@@ -207,6 +225,7 @@ std::optional<double> Section::times_normal_stress(std::string_view key, const V
   const Value* const pressed = friction.find("normal_stress");
   if (!pressed)
     throw refuse(key, item, "it needs friction.normal_stress", "friction.normal_stress, or a stress in MPa");
+  if (varies(*pressed)) throw refuse(key, item, "friction.normal_stress varies", "a stress in MPa");
   return *factor * friction.quantity("normal_stress", *pressed, medium::Dimension::pressure);
 }
 

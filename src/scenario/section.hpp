@@ -15,6 +15,10 @@ namespace slipfront::scenario {
 /// Whether the text is a number and a unit, which no formula is.
 bool is_quantity(std::string_view text);
 
+/// Whether a key varies along the interface: by a table, or by a text that is a formula rather than a number with a
+/// unit.
+bool varies(const Value& value);
+
 /// The first value with a unit outside of [medium], as "key = 'text'"; empty if there is none. Pure numbers and the
 /// normal stress, which exist in SI units only, do not count.
 std::string first_in_si(const Document& document);

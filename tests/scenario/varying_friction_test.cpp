@@ -86,6 +86,36 @@ TEST(VaryingFrictionOfAScenario, ScalesForcesByTheNormalStress) {
                        "no units are given"));
 }
 
+TEST(VaryingFrictionOfAScenario, IsAFactorOfACurve) {
+  const std::string text = "[initial]\nstress_left = 0\nstress_right = 0\n" + rock +
+                           "[domain]\nleft = \"-2 m\"\nright = \"2 m\"\n[friction]\nlaw = \"formula\"\n"
+                           "formula = \"1e3 + 1e4*w\"\nunits = \"SI\"\ncoefficient = ";
+  const Scenario one = read(text + "1\n"), same = read(text + "\"1 + 0*x\"\n");
+  const double force = one.friction.force(0.1, {});
+  EXPECT_EQ(same.friction.force(0.1, {}), force);
+  const double end = one.domain.right.value();
+  for (const std::string coefficient : {"\"1.5 + 0.25*x\"\n", "{ file = \"c.csv\", column = \"c\" }\n"}) {
+    const Scenario varies = read(text + coefficient, {}, {{-2, 1}, {2, 2}});
+    EXPECT_NEAR(varies.friction.force(0.1, state_at(varies, -end)), force, 1e-12 * force);
+    EXPECT_NEAR(varies.friction.force(0.1, state_at(varies, end)), 2 * force, 1e-12 * force);
+  }
+}
+
+TEST(VaryingFrictionOfAScenario, TakesAConstantFormulaInSi) {
+  const std::string text = "[initial]\nstress_left = 0\nstress_right = 0\n" + rock + "[friction]\nlaw = \"coulomb\"\n";
+  const Scenario number = read(text + "coefficient = \"10 kPa\"\n");
+  const Scenario formula = read(text + "coefficient = \"1e4 + 0*x\"\nunits = \"SI\"\n");
+  EXPECT_NEAR(formula.friction.parameter("coefficient"), number.friction.parameter("coefficient"), 1e-18);
+  EXPECT_FALSE(formula.friction.varies());
+}
+
+TEST(VaryingFrictionOfAScenario, IsNoStressToCountIn) {
+  const std::string text = "[initial]\nstress_left = \"0.5 sigma_N\"\nstress_right = 0\n" + rock +
+                           "[domain]\nleft = \"-2 m\"\nright = \"2 m\"\n[friction]\nlaw = \"coulomb\"\nunits = \"SI\"\n"
+                           "coefficient = 0.6\nnormal_stress = \"1e6*(2 + x/4)\"\n";
+  EXPECT_EQ(refused(text).problem, "friction.normal_stress varies");
+}
+
 TEST(VaryingFrictionOfAScenario, ShowsItsRange) {
   std::vector<std::string> all;
   for (const Quantity& q : quantities_of(ageing + "direct_effect = \"0.02 + 0.005*x\"\n", "a.toml", {}))
