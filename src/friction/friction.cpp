@@ -22,8 +22,11 @@ bool is_proportional(const Definition& definition) {
   return forces == 1 && definition.find(name_of_factor) != nullptr;
 }
 
+/// The index of a parameter; one past the last if the law has no such parameter.
 std::size_t index_of(const Definition& definition, std::string_view parameter) {
-  return static_cast<std::size_t>(definition.find(parameter) - definition.parameters.data());
+  std::size_t index = 0;
+  while (index < definition.parameters.size() && definition.parameters[index].name != parameter) ++index;
+  return index;
 }
 
 AlongInterface divided(const AlongInterface& value, double by) {

@@ -90,29 +90,22 @@ TableFile file_of(const Section& section, const TableReader& tables, std::string
 
 }  // namespace
 
-Interface interface_of(const Document& document, double reach) {
+Interface interface_of(const Document& document, const Domain& domain, const std::pair<double, double>& range) {
+  if (!is_plane(document))
+    return {.extent = {range.first, range.second}, .is_known = domain.left.has_value() && domain.right.has_value()};
   Interface interface;
-  Extent& e = interface.extent;
-  interface.plane = is_plane(document);
-  const Section section(document, interface.plane ? "plane" : "domain");
-  const auto number = [&section](std::string_view key) -> std::optional<double> {
+  interface.plane = true;
+  const Section plane(document, "plane");
+  for (const auto& [key, value] : {std::pair{"left", &interface.extent.left},
+                                   {"right", &interface.extent.right},
+                                   {"bottom", &interface.extent.bottom},
+                                   {"top", &interface.extent.top},
+                                   {"wave_speed_ratio", &interface.ratio}}) {
     try {
-      return section.number(key);
+      plane.read(key, *value);
     } catch (const InputError&) {  // the reader of the table reports it
-      return std::nullopt;
     }
-  };
-  if (interface.plane) {
-    interface.ratio = number("wave_speed_ratio").value_or(1);
-    for (const auto& [key, value] :
-         {std::pair{"left", &e.left}, {"right", &e.right}, {"bottom", &e.bottom}, {"top", &e.top}})
-      *value = number(key).value_or(0);
-    return interface;
   }
-  const std::optional<double> left = number("left"), right = number("right");
-  const double far = reach > 0 ? 2 * reach : 7;
-  e.left = left.value_or(right.value_or(0) - far);
-  e.right = right.value_or(left.value_or(0) + far);
   return interface;
 }
 
@@ -128,6 +121,7 @@ FrictionUnits::FrictionUnits(const Section& friction, const TableReader& tables,
       in_range(read_along(normal_stress, *pressed, ModelUnit::none, {.least = 0, .without_least = true}));
   vary_ = true;
   largest_normal_stress_ = along.most;
+  if (!along.at) return;
   share_ = {[at = along.at, most = along.most](double x, double y) { return at(x, y) / most; },
             along.least / along.most, 1};
 }
@@ -150,24 +144,30 @@ FrictionUnits::At FrictionUnits::read_along(std::string_view key, const Value& v
   return [grid = read_grid(file, values, interface_.extent), ratio](double x, double y) { return grid(x, y * ratio); };
 }
 
-/// With its range on a grid of positions, so that a formula which fails does so before the run.
+/// With its range on a grid of positions, so that a formula which fails does so before the run. A value that is the
+/// same there and on a finer grid does not vary.
 friction::AlongInterface FrictionUnits::in_range(At at) const {
   friction::AlongInterface along{std::move(at), HUGE_VAL, -HUGE_VAL};
   const Extent& e = interface_.extent;
-  const int rows = interface_.plane ? 101 : 1, columns = interface_.plane ? 101 : 2001;
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      const double x = e.left + (e.right - e.left) * i / (columns - 1);
-      const double y = interface_.plane ? e.bottom + (e.top - e.bottom) * j / (rows - 1) : 0;
-      const double value = along.at(x, y / interface_.ratio);
-      along.least = std::fmin(along.least, value);
-      along.most = std::fmax(along.most, value);
-    }
+  const auto look = [&](int columns, int rows) {
+    for (int j = 0; j < rows; ++j)
+      for (int i = 0; i < columns; ++i) {
+        const double x = e.left + (e.right - e.left) * i / (columns - 1);
+        const double y = rows > 1 ? e.bottom + (e.top - e.bottom) * j / (rows - 1) : 0;
+        const double value = along.at(x, y / interface_.ratio);
+        along.least = std::fmin(along.least, value);
+        along.most = std::fmax(along.most, value);
+      }
+  };
+  interface_.plane ? look(101, 101) : look(2001, 1);
+  if (along.least < along.most || !interface_.is_known) return along;
+  interface_.plane ? look(1001, 1001) : look(200001, 1);
+  if (along.least == along.most) along.at = nullptr;
   return along;
 }
 
 double FrictionUnits::normal_stress_in_si() const {
-  if (share_) return largest_normal_stress_;
+  if (largest_normal_stress_ > 0) return largest_normal_stress_;
   const double pressed = friction_.quantity(normal_stress, *friction_.find(normal_stress), medium::Dimension::pressure);
   if (!(pressed > 0)) throw friction_.refuse(normal_stress, "not positive", "> 0");
   return pressed;
@@ -187,9 +187,6 @@ double FrictionUnits::si_of(const Parameter& p) const {
 
 friction::AlongInterface FrictionUnits::in_model(const Parameter& p) const {
   const Limits limits{.least = p.least, .most = p.most, .without_least = p.without_least};
-  const auto constant = [](double value) {
-    return friction::AlongInterface{[value](double, double) { return value; }, value, value};
-  };
   const Value* const value = friction_.find(p.name);
   if (value && varies(*value)) {
     const bool force = p.dimension == Dimension::force, coefficient = force && friction_.has(normal_stress);
@@ -202,7 +199,7 @@ friction::AlongInterface FrictionUnits::in_model(const Parameter& p) const {
   const double number = uniform(p);
   if (!limits.hold(number)) throw friction_.refuse(p.name, "out of range", limits.text());
   const bool stress = value && value->kind == Value::Kind::text && p.dimension == Dimension::force;
-  if (!share_ || !stress) return constant(number);
+  if (!share_ || !stress) return {nullptr, number, number};
   return in_range([share = share_->at, number](double x, double y) { return number / share(x, y); });
 }
 
@@ -333,7 +330,7 @@ bool has_coefficient(const Parameter& p) { return p.unit == friction::force_unit
 friction::AlongInterface read_parameter(const Section& section, const Parameter& p, const FrictionUnits& units) {
   if (p.words.empty()) return units.in_model(p);
   const double word = section.has(p.name) ? static_cast<double>(section.word(p.name)) : p.value;
-  return {[word](double, double) { return word; }, word, word};
+  return {nullptr, word, word};
 }
 
 /// Checks that keys of contacts and pores which need each other are given together.
@@ -362,8 +359,7 @@ using VaryingParameters = std::vector<std::pair<std::string_view, friction::Alon
 friction::Friction varied(const Section& section, friction::Friction friction, const FrictionUnits& units,
                           const VaryingParameters& varying) {
   try {
-    if (const auto& share = units.share_of_normal_stress(); share && share->least < share->most)
-      friction = friction.under(*share);
+    if (const auto& share = units.share_of_normal_stress()) friction = friction.under(*share);
     for (const auto& [parameter, along] : varying) friction = friction.with(parameter, along);
   } catch (const InputError& error) {
     throw section.refuse(error.complaint().key, error.complaint().problem, error.complaint().allowed);
@@ -373,10 +369,12 @@ friction::Friction varied(const Section& section, friction::Friction friction, c
 
 }  // namespace
 
-void read_friction(const Document& document, const TableReader& tables, Scenario& scenario) {
+void read_friction(const Document& document, const TableReader& tables, const RawStress& raw, Scenario& scenario) {
   const std::vector<const Parameter*> parameters = all_parameters();
   const Section section(document, "friction");
-  const FrictionUnits units(section, tables, interface_of(document, scenario.initial.reach));
+  const Domain& domain = scenario.domain;
+  const FrictionUnits units(section, tables,
+                            interface_of(document, domain, trial_range(domain, scenario.initial.reach, raw.covers)));
   const bool named = section.has("law");
   const Definition& law = named ? *friction::laws()[section.word("law")] : scenario.friction.definition();
   Errors errors;
@@ -389,7 +387,7 @@ void read_friction(const Document& document, const TableReader& tables, Scenario
     errors.attempt([&] {
       const friction::AlongInterface along = read_parameter(section, p, units);
       values.push_back(along.most);
-      if (along.least < along.most) varying.emplace_back(p.name, along);
+      if (along.at) varying.emplace_back(p.name, along);
     });
   errors.throw_if_any();
   Closure closure = scenario.friction.closure();

@@ -172,20 +172,9 @@ void warn_of_strength(double largest_contact, Scenario& scenario) {
                               "); friction acts in addition to these contacts (docs/friction.md, In SI units)");
 }
 
-/// The range of x in which to try the functions: the domain, or an estimate of the domain that a solver will choose.
-std::pair<double, double> trial_range(const Scenario& scenario, const RawStress& raw) {
-  const double reach = scenario.initial.reach > 0 ? 2 * scenario.initial.reach : 7;
-  const auto [left, right] = raw.covers.value_or(std::pair(-reach, reach));
-  const Domain& domain = scenario.domain;
-  if (domain.left && domain.right) return {*domain.left, *domain.right};
-  if (domain.left) return {*domain.left, std::max(right, *domain.left + (raw.covers ? 0 : 2 * reach))};
-  if (domain.right) return {std::min(left, *domain.right - (raw.covers ? 0 : 2 * reach)), *domain.right};
-  return {left, right};
-}
-
 void try_functions(const Document& document, const RawStress& raw, Scenario& scenario) {
   constexpr int samples = 2001;
-  const auto [left, right] = trial_range(scenario, raw);
+  const auto [left, right] = trial_range(scenario.domain, scenario.initial.reach, raw.covers);
   std::optional<double> first_small;
   double last_small = 0, largest_contact = 1;
   bool stressed = false;
@@ -216,6 +205,16 @@ void try_functions(const Document& document, const RawStress& raw, Scenario& sce
 }
 
 }  // namespace
+
+std::pair<double, double> trial_range(const Domain& domain, double reach,
+                                      const std::optional<std::pair<double, double>>& covers) {
+  const double far = reach > 0 ? 2 * reach : 7;
+  const auto [left, right] = covers.value_or(std::pair(-far, far));
+  if (domain.left && domain.right) return {*domain.left, *domain.right};
+  if (domain.left) return {*domain.left, std::max(right, *domain.left + (covers ? 0 : 2 * far))};
+  if (domain.right) return {std::min(left, *domain.right - (covers ? 0 : 2 * far)), *domain.right};
+  return {left, right};
+}
 
 void make_functions(const Document& document, const RawStress& raw, Scenario& scenario) {
   make_forcing(document, scenario);

@@ -208,7 +208,7 @@ RawStress read_tables(const Document& document, const TableReader& tables, Scena
       if (!is_plane(document)) raw = read_line(document, tables, scenario);
     });
   attempt("domain", [&] { read_domain(document, scenario.domain); });
-  attempt("friction", [&] { read_friction(document, tables, scenario); });
+  attempt("friction", [&] { read_friction(document, tables, raw, scenario); });
   attempt("time", [&] { Section(document, "time").read("end", scenario.end); });
   attempt("pulse", [&] { read_pulse(document, scenario.pulse); });
   attempt("chain", [&] { read_chain(document, scenario.chain); });

@@ -14,9 +14,21 @@
 
 namespace slipfront::scenario {
 
+/// The initial stress as the user gave it, before any check.
+struct RawStress {
+  std::function<double(double)> at;
+  Complaint where;                                       ///< the key that defines it, for error messages
+  std::optional<std::pair<double, double>> covers = {};  ///< for a table: the range in which it defines the stress
+};
+
+/// The range of x in which to try functions: the domain, or an estimate of the domain that a solver will choose from
+/// the reach of the initial state, or from what its table covers.
+std::pair<double, double> trial_range(const Domain& domain, double reach,
+                                      const std::optional<std::pair<double, double>>& covers);
+
 // Each function reads and checks its table. Missing keys retain their defaults. \throws InputError.
 
-void read_friction(const Document& document, const TableReader& tables, Scenario& scenario);
+void read_friction(const Document& document, const TableReader& tables, const RawStress& raw, Scenario& scenario);
 void read_medium(const Document& document, medium::Constants& medium);
 /// Stiffness of the springs in the unit of the model, and that unit, which depends on the sites that they pull.
 std::optional<double> stiffness_of(const Section& section);
@@ -26,10 +38,11 @@ ModelUnit unit_of_stiffness(const Section& section);
 struct Interface {
   Extent extent;
   bool plane = false;
-  double ratio = 1;  ///< y of the scenario over y of the problem
+  double ratio = 1;      ///< y of the scenario over y of the problem
+  bool is_known = true;  ///< otherwise a solver may choose a larger one
 };
-/// `reach` is how far the initial state extends, if [domain] does not give the extent.
-Interface interface_of(const Document& document, double reach);
+/// `range` is that of a line, trial_range.
+Interface interface_of(const Document& document, const Domain& domain, const std::pair<double, double>& range);
 
 /// Parameters of friction as a laboratory gives them, in the model's units (docs/friction.md, "In SI units"): a text
 /// with a unit, or, where [friction] has a `normal_stress`, forces as friction coefficients. A parameter and the normal
@@ -38,8 +51,8 @@ class FrictionUnits {
  public:
   FrictionUnits(const Section& friction, const TableReader& tables, const Interface& interface);
 
-  /// The value of a parameter, or its default, which counts as a friction coefficient where the others do; of one that
-  /// varies its range. \throws InputError that names the key, the position if it varies, or the constant of [medium]
+  /// The value of a parameter, or its default, which counts as a friction coefficient where the others do. `at` is null
+  /// unless it varies. \throws InputError that names the key, the position if it varies, or the constant of [medium]
   /// that it needs.
   friction::AlongInterface in_model(const friction::Parameter& parameter) const;
   /// The normal stress over its largest value, if it varies.
@@ -62,7 +75,7 @@ class FrictionUnits {
   const TableReader& tables_;
   Interface interface_;
   bool vary_ = false;
-  double largest_normal_stress_ = 0;  ///< in Pa, if it varies
+  double largest_normal_stress_ = 0;  ///< in Pa, if it is a formula or a column
   std::optional<friction::AlongInterface> share_;
 };
 
@@ -74,13 +87,6 @@ void read_plane(const Document& document, const TableReader& tables, Scenario& s
 
 /// Reads the keys of [output] about a plane. \throws InputError for a probe outside the plane.
 void read_plane_output(const Document& document, Plane& plane);
-
-/// The initial stress as the user gave it, before any check.
-struct RawStress {
-  std::function<double(double)> at;
-  Complaint where;                                       ///< the key that defines it, for error messages
-  std::optional<std::pair<double, double>> covers = {};  ///< for a table: the range in which it defines the stress
-};
 
 /// Reads the profile of [initial], `hold` and `file`, and checks which keys the profile has.
 void read_profile(const Section& section, bool on_plane, Initial& initial);

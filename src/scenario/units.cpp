@@ -122,12 +122,14 @@ void add_table(const Document& document, std::string_view table, std::vector<Qua
 void add_friction(const Document& document, const TableReader& tables, const friction::Definition& law,
                   std::vector<Quantity>& all) {
   const Section section(document, "friction");
-  const FrictionUnits units(section, tables, interface_of(document, 0));
+  const Section line(document, "domain");
+  const Domain domain{line.number("left"), line.number("right")};
+  const FrictionUnits units(section, tables, interface_of(document, domain, trial_range(domain, 0, {})));
   for (const friction::Parameter& p : law.parameters) {
     const Value* const value = section.find(p.name);
     if (!value || !p.words.empty()) continue;
     const friction::AlongInterface along = units.in_model(p);
-    const bool varies = along.least < along.most;
+    const bool varies = along.at != nullptr;
     if (p.dimension == friction::Dimension::number && !varies) continue;
     const ModelUnit unit = FrictionUnits::unit_of(p);
     const bool has_si = unit != ModelUnit::none && (unit != ModelUnit::force || p.unit == friction::force_unit);

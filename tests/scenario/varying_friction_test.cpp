@@ -101,8 +101,18 @@ TEST(VaryingFrictionOfAScenario, IsAFactorOfACurve) {
   }
 }
 
+/// Neither a narrow patch nor one outside of an estimated domain is overlooked.
+TEST(VaryingFrictionOfAScenario, VariesInPatches) {
+  const std::string coulomb = "law = \"coulomb\"\ncoefficient = ";
+  EXPECT_TRUE(read(step + domain + coulomb + "\"abs(x - 0.7003) < 1e-4 ? 0.5 : 0.3\"\n").friction.varies());
+  const Scenario far = read(step + "[friction]\n" + coulomb + "\"x > 100 ? 0.5 : 0.3\"\n");
+  ASSERT_TRUE(far.friction.varies());
+  EXPECT_NEAR(far.friction.force(1, state_at(far, 200)), 0.5, 1e-12);
+}
+
 TEST(VaryingFrictionOfAScenario, TakesAConstantFormulaInSi) {
-  const std::string text = "[initial]\nstress_left = 0\nstress_right = 0\n" + rock + "[friction]\nlaw = \"coulomb\"\n";
+  const std::string text = "[initial]\nstress_left = 0\nstress_right = 0\n" + rock +
+                           "[domain]\nleft = \"-2 m\"\nright = \"2 m\"\n[friction]\nlaw = \"coulomb\"\n";
   const Scenario number = read(text + "coefficient = \"10 kPa\"\n");
   const Scenario formula = read(text + "coefficient = \"1e4 + 0*x\"\nunits = \"SI\"\n");
   EXPECT_NEAR(formula.friction.parameter("coefficient"), number.friction.parameter("coefficient"), 1e-18);

@@ -67,6 +67,8 @@ class Friction {
   bool acts() const { return acts_; }
   /// C of the law f = C w (0 without friction). Other laws, and a C that varies, have none, and no damping number C t.
   std::optional<double> linear_coefficient() const { return law_->facts().linear_coefficient; }
+  /// Whether there is a force f = C w, also with a C that varies.
+  bool is_viscous() const { return acts_ && linear_; }
   /// C of the law f = C w at a position, also of a C that varies.
   std::optional<double> linear_coefficient(double x, double y) const;
   /// f_0 of the law f = f_0 sign(w).

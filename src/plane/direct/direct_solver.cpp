@@ -19,8 +19,6 @@ namespace {
 
 using std::numbers::pi;
 
-bool is_viscous(const Problem& p) { return p.friction.acts() && p.friction.linear_coefficient(p.left, p.bottom); }
-
 void check(const Problem& p) {
   if (p.friction.changes_contacts())
     throw InputError({.key = "friction",
@@ -188,7 +186,7 @@ double memory_of_direct(const Problem& problem, const DirectOptions& options) {
   constexpr double arrays =
       14;  // u at three times, the start, two of a look, what its velocity and energy need, accelerations
   const Counts n = count_sites(problem, options.scale, options.spacing);
-  const double given = (problem.contact ? 1 : 0) + (is_viscous(problem) ? 1 : 0) + (problem.fixed ? 1 : 0) +
+  const double given = (problem.contact ? 1 : 0) + (problem.friction.is_viscous() ? 1 : 0) + (problem.fixed ? 1 : 0) +
                        (problem.forcing ? 1 : 0) + (problem.hold ? 2 : 0) +
                        static_cast<double>(problem.friction.state_size());
   return (arrays + given) * sizeof(double) * n.nx * n.ny;

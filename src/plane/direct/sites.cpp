@@ -52,7 +52,7 @@ void fill(const Problem& p, Sites& sites) {
       const double a = p.contact(x, y);
       return a * a;
     });
-  if (p.friction.acts() && p.friction.linear_coefficient(p.left, p.bottom))
+  if (p.friction.is_viscous())
     sites.viscous =
         at_each(sites, [&](double x, double y) { return *p.friction.linear_coefficient(x, y) / sites.scale; });
   if (p.fixed) sites.moves = at_each(sites, [&](double x, double y) { return p.fixed(x, y) == 0 ? 1.0 : 0.0; });
