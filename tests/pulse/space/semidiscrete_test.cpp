@@ -17,30 +17,33 @@ using namespace slipfront;
 using pulse::Edge;
 using pulse::Semidiscrete;
 
-/// Cells around gaps at 4 and 5, all of one width, with this momentum per dislocation.
-struct TwoTrains {
-  static constexpr std::size_t cells = 12;
+/// The problem of some cells, and their unknowns and rates.
+struct Called {
+  explicit Called(std::size_t cells) : y(pulse::Values::size(cells), 0), rates(y.size(), 0) {}
+  Semidiscrete called() {
+    Semidiscrete equations(setup);
+    equations.start_from(std::vector<double>(setup.charge.size(), 0.3));
+    equations(0, y.data(), rates.data());
+    return equations;
+  }
   pulse::Setup setup;
   std::vector<double> y, rates;
+};
 
-  TwoTrains(const friction::Friction& friction, double width, double momentum) {
+/// Cells around gaps at 4 and 5, all of one width, with this momentum per dislocation.
+struct TwoTrains : Called {
+  static constexpr std::size_t cells = 12;
+
+  TwoTrains(const friction::Friction& friction, double width, double momentum) : Called(cells) {
     setup.charge.assign(cells, 0.05);
     setup.charge[4] = setup.charge[5] = 0;
     setup.left = setup.right = Edge::continued;
     setup.friction = friction;
-    y.assign(pulse::Values::size(cells), 0);
-    rates.assign(y.size(), 0);
     const pulse::Values values(y.data(), cells);
     for (std::size_t i = 0; i < cells; ++i) {
       values.width(i) = width;
       values.momentum(i) = momentum * setup.charge[i];
     }
-  }
-  Semidiscrete called() {
-    Semidiscrete equations(setup);
-    equations.start_from(std::vector<double>(cells, 0.3));
-    equations(0, y.data(), rates.data());
-    return equations;
   }
 };
 
@@ -74,12 +77,10 @@ TEST(Semidiscrete, ReportsTheTimeInWhichSoundCrossesACell) {
 }
 
 /// A train of this many cells from -3 to 3, one of which has more dislocations, or its mirror image.
-struct Mirrored {
+struct Mirrored : Called {
   static constexpr std::size_t cells = 16;
-  pulse::Setup setup;
-  std::vector<double> y, rates;
 
-  Mirrored(bool is_image, Edge edge, bool rough, double collision, double dense) {
+  Mirrored(bool is_image, Edge edge, bool rough, double collision, double dense) : Called(cells) {
     setup.charge.assign(cells, 0.2);
     setup.charge[is_image ? cells - 1 - 7 : 7] = dense;
     setup.left = setup.right = edge;
@@ -88,8 +89,6 @@ struct Mirrored {
     setup.friction = friction::power(0.3, 0.6);
     const double sign = is_image ? -1 : 1;
     if (rough) setup.contact = [sign](double x) { return 1 + 0.1 * std::sin(sign * x + 0.3); };
-    y.assign(pulse::Values::size(cells), 0);
-    rates.assign(y.size(), 0);
     const pulse::Values values(y.data(), cells);
     values.left_edge() = -3;
     double sum = 0;
@@ -100,12 +99,6 @@ struct Mirrored {
       values.width(i) = width(at) * 6 / sum;
       values.momentum(i) = sign * setup.charge[i] * (std::sin(0.4 * at) + collision * (at < 6 ? 1 : -1.5));
     }
-  }
-  Semidiscrete called() {
-    Semidiscrete equations(setup);
-    equations.start_from(std::vector<double>(cells, 0.3));
-    equations(0, y.data(), rates.data());
-    return equations;
   }
 };
 

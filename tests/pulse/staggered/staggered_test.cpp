@@ -38,6 +38,13 @@ std::vector<double> unknowns(double width, double momentum) {
   return z;
 }
 
+std::vector<double> rates_of(Staggered& equations, const std::vector<double>& z) {
+  std::vector<double> rates(z.size());
+  equations.start_from(std::vector<double>(cells, 0.3));
+  equations(0, z.data(), rates.data());
+  return rates;
+}
+
 TEST(Staggered, CarriesALineOfMomentaToTheFacesAndBack) {
   const Staggered equations(setup(friction::viscous(1), Edge::continued));
   std::vector<double> in_cells(cells), at_faces(cells + 1), back(cells);
@@ -50,18 +57,14 @@ TEST(Staggered, CarriesALineOfMomentaToTheFacesAndBack) {
 TEST(Staggered, LeavesATrainAtRestAtRest) {
   Staggered equations(setup(friction::viscous(1)));
   const std::vector<double> z = unknowns(0.4, 0);
-  std::vector<double> rates(z.size());
-  equations.start_from(std::vector<double>(cells, 0.3));
-  equations(0, z.data(), rates.data());
+  const std::vector<double> rates = rates_of(equations, z);
   for (const double rate : rates) EXPECT_EQ(rate, 0);
 }
 
 TEST(Staggered, DampsEveryMomentumAtTheRateOfViscousFriction) {
   Staggered equations(setup(friction::viscous(2)));
   const std::vector<double> z = unknowns(0.4, 1e-4);
-  std::vector<double> rates(z.size());
-  equations.start_from(std::vector<double>(cells, 0.3));
-  equations(0, z.data(), rates.data());
+  const std::vector<double> rates = rates_of(equations, z);
   const pulse::ConstFaceValues rate(rates.data(), cells + 1);
   for (std::size_t f = 2; f + 1 < cells; ++f) EXPECT_NEAR(rate.momentum(f), -2e-4, 1e-8) << f;
 }
@@ -102,9 +105,7 @@ TEST(Staggered, FindsTheTerminalMotionOfTheDislocationUnderTheLargestForce) {
   for (const double C : {0.5, 20.0}) {
     Staggered equations(setup(friction::viscous(C)));
     const std::vector<double> z = unknowns(0.4, 0);
-    std::vector<double> rates(z.size());
-    equations.start_from(std::vector<double>(cells, 0.3));
-    equations(0, z.data(), rates.data());
+    std::vector<double> rates = rates_of(equations, z);
     const pulse::FaceValues rate(rates.data(), cells + 1);
     rate.momentum(4) = 0.002;
     rate.momentum(6) = -0.05;  // 1 on each dislocation
@@ -121,9 +122,7 @@ TEST(Staggered, FindsTheTerminalMotionOfTheDislocationUnderTheLargestForce) {
 TEST(Staggered, CountsTheWorkOfFriction) {
   Staggered equations(setup(friction::viscous(2)));
   const std::vector<double> z = unknowns(0.4, 1e-4);
-  std::vector<double> rates(z.size());
-  equations.start_from(std::vector<double>(cells, 0.3));
-  equations(0, z.data(), rates.data());
+  const std::vector<double> rates = rates_of(equations, z);
   const pulse::ConstFaceValues rate(rates.data(), cells + 1);
   const double velocity = std::tanh(modulation::state_of({8, 1e-4 / 0.05}, 0.5).phi);
   EXPECT_NEAR(rate.dissipated() / ((cells - 1) * velocity * 2 * 1e-4), 1, 1e-6);
