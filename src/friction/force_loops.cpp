@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "foundation/simd/vector_code.hpp"
-#include "friction/in_parts.hpp"
+#include "friction/laws/in_parts.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "friction/in_parts.hpp"
+#include "friction/laws/in_parts.hpp"
 
 namespace slipfront::friction {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/vector_code.hpp"
-#include "friction/in_parts.hpp"
+#include "friction/laws/in_parts.hpp"
 #include "friction/laws/rate_and_state_loops.hpp"
 #include "friction/state/contact_age.hpp"
 #include "friction/train_means/asinh_average.hpp"
