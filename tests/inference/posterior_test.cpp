@@ -229,6 +229,24 @@ TEST(Posterior, SolvesExactObservations) {
     }
 }
 
+/// The static drop of a drawn state is that of a pulse with its velocity, contact ratio and damping number.
+TEST(Posterior, DrawsStaticDropsOfTheirPulses) {
+  Observation o;
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  o.rupture_velocity_m_s = lognormal(2500, 1.1);
+  o.slip_velocity_m_s = lognormal(0.5, 1.3);
+  o.contact_ratio = 0.01;
+  for (const Closure closure : {Closure::consistent, Closure::paper}) {
+    const Posterior p = *posterior(o, defaults, {.samples = 1000, .closure = closure, .draws = 20});
+    ASSERT_EQ(p.draws.size(), 20u);
+    for (const FaultState& s : p.draws) {
+      const Truth truth{s.rupture_velocity_m_s, s.contact_ratio, s.damping_number};
+      EXPECT_NEAR(s.stress_pa / truth.stress_pa(), 1, 1e-12);
+      EXPECT_NEAR(s.static_drop_pa / truth.static_drop_pa(closure), 1, 1e-9);
+    }
+  }
+}
+
 TEST(Posterior, NotesUnidentifiableQuantities) {
   Observation o;
   o.name = "velocities";

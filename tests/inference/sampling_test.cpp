@@ -90,6 +90,21 @@ TEST(PulseModel, SeesTheFastestPulseAtItsLargestStress) {
   }
 }
 
+/// The slope of the velocity by that of the observed front is that of neighbouring observations.
+TEST(PulseModel, SlopeIsThatOfNeighbouringObservations) {
+  const sampled::PulseModel model(observed_front(), slipfront::friction::Closure::consistent);
+  constexpr double h = 1e-3;
+  for (const double seen : {0.01, 0.1, 0.4, 0.6})
+    for (const double share : {0.0, 0.2, 0.5}) {
+      const double u = share * model.most_u(seen);
+      const sampled::PulseState p = model.at(seen, u);
+      EXPECT_NEAR(model.seen(p, u) / seen, 1, 1e-12);
+      const double above = model.at(seen * std::exp(h), u).rupture_velocity,
+                   below = model.at(seen * std::exp(-h), u).rupture_velocity;
+      EXPECT_NEAR(p.slope, std::log(above / below) / (2 * h), h * h) << seen << " " << share;
+    }
+}
+
 /// Far above the observed value, a normal error of 30 % counts as a factor of exp(0.3).
 TEST(Evidence, CanExcludeValuesFarAboveThoseWithNormalErrors) {
   const auto likelihood = [](const slipfront::catalogue::Measured& m, double x, bool falls) {

@@ -26,8 +26,8 @@ struct Front {
 Front front_at(double psi) {
   const elliptic::AtPsi at = elliptic::at_psi(psi);
   const double m = (1 - at.s) * (1 + at.s), K_slope = elliptic::log_slope_of_K(at), E_slope = at.s * (1 / at.ratio - 1);
-  return {std::log(at.s / at.ratio), psi * (m / at.s + K_slope - E_slope), std::acos(-1.0) * std::cosh(psi) / at.K,
-          psi * (at.s - K_slope)};
+  const double stress = std::acos(-1.0) * std::cosh(psi) / at.K;
+  return {std::log(at.s / at.ratio), psi * (m / at.s + K_slope - E_slope), stress, stress * psi * (at.s - K_slope)};
 }
 
 /// A first guess of psi, from |V-| = psi ln(4 / psi) for small psi.
