@@ -124,19 +124,18 @@ friction::Friction weak_rate_and_state() {
   return {};
 }
 
-/// Chains with a contact profile, which take 32 levels at a time, and chains that advance level by level: with a
-/// forcing (that changes with time, or not), with dry friction, with viscous friction on a chain short enough for the
-/// work meter, with friction that has a state, and with a contact profile and a forcing.
+/// Chains with a contact profile, with a forcing (that changes with time, or not), with dry and with viscous friction,
+/// with friction that has a state, and with a contact profile and a forcing.
 void chain_general(benchmark::State& state) {
   const char* const kinds[] = {"contact",
                                "forcing",
                                "steady forcing",
                                "Coulomb friction",
-                               "metered viscous friction",
+                               "viscous friction",
                                "rate-and-state friction",
                                "contact and steady forcing"};
   const auto kind = static_cast<std::size_t>(state.range(0));
-  const std::size_t sites = kind == 4 ? 9000 : 100000;
+  constexpr std::size_t sites = 100000;
   Problem p = damped_train(sites);
   if (kind == 0 || kind == 6) p.contact = [](double x) { return 1 + 0.1 * std::sin(x); };
   if (kind == 1 || kind == 2 || kind == 6) p.forcing = [](double x, double t) { return 0.01 * std::sin(x - t); };

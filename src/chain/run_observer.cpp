@@ -45,10 +45,10 @@ Spacings spacings_of_trains(const ScaledProblem& s) {
   return {(s.right - s.left) / 16, (s.right - s.left) / 16};
 }
 
-/// The number of steps to each sample of the rates, from which we integrate them. It grows with the number of steps so
-/// far, so that a run has 200 samples or more. It does not depend on the end, so that a run to a later end can continue
-/// this one. In a short chain we sample often enough to resolve the slip velocity while a single dislocation passes
-/// x = 0.
+/// The number of steps to each sample of the velocity at x = 0, which we integrate. It grows with the number of steps
+/// so far, so that a run has 200 samples or more. It does not depend on the end, so that a run to a later end can
+/// continue this one. In a short chain we sample often enough to resolve the slip velocity while a single dislocation
+/// passes x = 0.
 long steps_per_sample(long steps, std::size_t sites) {
   constexpr long first = 6400;
   constexpr std::size_t few_sites = 5000;
@@ -59,8 +59,8 @@ long steps_per_sample(long steps, std::size_t sites) {
   return every;
 }
 
-/// The first step after `steps` at which the run samples rates. There is one sample at a random step in each interval.
-/// A train passes x = 0 periodically, and samples in a regular pattern could repeatedly meet the same phase.
+/// The first step after `steps` at which the run samples the velocity. There is one sample at a random step in each
+/// interval. A train passes x = 0 periodically, and samples in a regular pattern could repeatedly meet the same phase.
 long sample_after(long steps, std::size_t sites) {
   const auto sample = [](long n, long every) {
     std::uint64_t z = static_cast<std::uint64_t>(n) * 0x9e3779b97f4a7c15u;  // splitmix64 of the number of the sample
@@ -146,21 +146,13 @@ long RunObserver::steps_to_sample() const {
   return sample_after(chain_.steps(), chain_.problem().grid.sites) - chain_.steps();
 }
 
-/// The rate of friction is sampled only if the chain does not measure this work itself.
 void RunObserver::sample() {
-  if (chain_.problem().friction.acts() && !chain_.meters_friction()) work_.sample(totals(chain_));
   if (!sees_origin()) return;
   const double time = chain_.time();
   slip_.add(time, average(chain_, 0, scaled_.scale * window_, time).velocity);
 }
 
 bool RunObserver::sees_origin() const { return !std::isnan(first_u_at_origin_); }
-
-Work RunObserver::work_until(const Totals& now) const {
-  Work work = work_;
-  if (work.started) work.sample(now);
-  return work;
-}
 
 Snapshot RunObserver::snapshot(double time) const {
   Snapshot s{};
@@ -266,7 +258,7 @@ void RunObserver::add_energy(Snapshot& s, const Totals& now) const {
   const Flows flows = chain_.flows();
   s.energy = {.elastic = (now.elastic + now.substrate) / c,
               .kinetic = now.kinetic / c,
-              .dissipated = (work_until(now).dissipated + flows.dissipated + flows.outflow) / c,
+              .dissipated = (flows.dissipated + flows.outflow) / c,
               .supplied = flows.supplied / c,
               .through_ends = none,
               .shocks = none,
@@ -343,7 +335,7 @@ double RunObserver::pore_pressure_at_origin() const {
 Balance RunObserver::balance() const {
   const Totals now = totals(chain_);
   const Flows flows = chain_.flows();
-  const double gone = work_until(now).dissipated + flows.dissipated + flows.outflow;
+  const double gone = flows.dissipated + flows.outflow;
   const double all =
       std::max({first_energy_, now.energy(), std::fabs(flows.supplied), std::fabs(gone), std::fabs(flows.by_contacts)});
   const double missing = now.energy() + gone - flows.supplied - flows.by_contacts - first_energy_;

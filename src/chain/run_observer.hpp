@@ -28,7 +28,7 @@ class RunObserver {
 
   /// The number of steps to the next sample.
   long steps_to_sample() const;
-  /// Samples the rates that are integrated over time.
+  /// Samples the velocity that is integrated over time.
   void sample();
   /// Returns a snapshot at `time` of the scenario, which the chain must have reached. \throws NumericsError if the
   /// chain has diverged.
@@ -49,7 +49,7 @@ class RunObserver {
   };
   OriginSlip origin_slip() const;
 
-  void archive(Archive& a) { a(work_, slip_); }
+  void archive(Archive& a) { a(slip_); }
 
  private:
   void choose_windows();
@@ -57,7 +57,6 @@ class RunObserver {
   double last_site() const;
   double middle_of_cell(std::size_t i) const;
   double centre_of_cell(std::size_t i) const;  ///< centre of the window of its slip, which must not leave the chain
-  Work work_until(const Totals& now) const;
   /// The widths of the average around the middle of cell i.
   double least_width(std::size_t i) const;
   BestAverage average_at_origin(double time) const;
@@ -82,7 +81,6 @@ class RunObserver {
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;
   long first_dislocations_ = 0;
   double driving_force_ = 0;
-  Work work_;  ///< work since t = 0 of viscous friction, if the chain does not measure it
   /// Time integral of the velocity at x = 0, averaged over the window of the slip. Its first sample is at t = 0.
   output::SampledIntegral slip_{.samples = -1};
 };

@@ -10,7 +10,7 @@
 /// Chains of every kind of end and force, from a rough start, for comparisons to the bit.
 namespace cases {
 
-inline constexpr int kinds = 11;
+inline constexpr int kinds = 12;
 
 /// A law by its name, with the first of its parameters; the others have their default values.
 inline slipfront::friction::Friction law(const char* name, const std::vector<double>& first) {
@@ -68,6 +68,13 @@ inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
     p.contact = [a = p.friction.contact_at_start()](double x) { return a * (1 + 0.1 * std::cos(0.3 * x)); };
     p.forcing = [](double x, double t) { return 0.1 * std::sin(0.1 * x + t); };
     p.longest = 100;
+  }
+  if (kind == 11) {  // a steady force, contacts and implicit friction together
+    p.boundary = {.periodic = true, .charge = sites < 20 ? 1 : 3};
+    p.friction = law("flash-heating", {0.05, 0.02, 0.5});
+    p.contact = [](double x) { return 1 + 0.2 * std::cos(0.3 * x); };
+    p.forcing = [](double x, double) { return 0.1 * std::sin(0.1 * x); };
+    p.steady_forcing = true;
   }
   if (kind == 10) {
     p.boundary = {End::absorbing, End::free, false, 0};

@@ -76,9 +76,6 @@ class Sites {
   /// window.
   virtual Window own_window(std::size_t begin, std::size_t end, double time) const = 0;
 
-  /// The terms of the equation of motion for a site of this rank at the present time.
-  virtual double forcing(std::size_t site) const = 0;                    ///< F, including the springs of Loading
-  virtual double friction(std::size_t site, double velocity) const = 0;  ///< f
   virtual SpringEnergy spring_energy() const = 0;
   /// Mean force on a site, or the stress at the pulled end, if springs load the chain; otherwise 0.
   virtual double load() const { return 0; }
@@ -110,9 +107,6 @@ class Chain : public Sites {
   virtual bool valid() const = 0;
 
   virtual Flows flows() const = 0;  ///< (all)
-  /// Whether `flows` includes the work of friction. An explicit chain with more than 10 000 sites and only viscous
-  /// friction advances 32 levels at a time and does not measure this work. Totals has its rate.
-  virtual bool meters_friction() const = 0;
   /// The number of the slip event in progress, from 1; 0 if there is none.
   virtual std::size_t event_in_progress() const { return 0; }
   /// The slip events of a loaded chain so far, in the units of the chain.

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "chain/explicit/levels/slab.hpp"
 #include "foundation/ranks.hpp"
 #include "friction/state/contacts.hpp"
 #include "slipfront/chain/problem.hpp"
@@ -14,8 +15,8 @@ namespace slipfront::chain {
 /// The site of the grid that j means. A j past an end is reflected there, or counted around a periodic chain.
 std::size_t folded(const Problem& problem, long j);
 
-/// Number of sites by which the arrays of a rank extend past its sites on either side. A window needs a few of them.
-inline constexpr std::size_t margin = 16;
+/// Number of sites by which the arrays of a rank extend past its sites on either side: a halo, up to whole vectors.
+inline constexpr std::size_t margin = halo + 2 * lanes;
 
 /// (all) Fills the margins of an array with `columns` numbers for each site of this rank and of its margins, which
 /// begin at site `first`. A margin has the sites of the rank next to it. Past an end of the chain it has those that

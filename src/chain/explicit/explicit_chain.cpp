@@ -76,7 +76,6 @@ void ExplicitChain::start_from(long level, const LevelsOf& saved) {
 double ExplicitChain::dt() const { return share_->scheme().dt; }
 double ExplicitChain::time() const { return share_->time(); }
 long ExplicitChain::steps() const { return share_->level(); }
-bool ExplicitChain::meters_friction() const { return share_->level_by_level(); }
 
 void ExplicitChain::advance(long levels) {
   valid_ = false;
@@ -97,11 +96,6 @@ bool ExplicitChain::advance_to(double time, long most) {
 void ExplicitChain::exchange() const { share_->exchange(); }
 Window ExplicitChain::own_window(std::size_t begin, std::size_t end, double time) const {
   return window_of(*share_, begin, end, time);
-}
-
-double ExplicitChain::forcing(std::size_t site) const { return share_->forces().now(static_cast<long>(site)); }
-double ExplicitChain::friction(std::size_t site, double velocity) const {
-  return share_->forces().friction(static_cast<long>(site), velocity);
 }
 
 Flows ExplicitChain::flows() const { return share_->flows(); }

@@ -43,15 +43,12 @@ class ExplicitChain final : public Chain {
   std::optional<double> constant_step() const override { return dt(); }
   void exchange() const override;
   Window own_window(std::size_t begin, std::size_t end, double time) const override;
-  double forcing(std::size_t site) const override;
-  double friction(std::size_t site, double velocity) const override;
   SpringEnergy spring_energy() const override { return {}; }
 
   long steps() const override;
   bool advance_to(double time, long most = no_limit) override;
   bool valid() const override { return valid_; }
   Flows flows() const override;
-  bool meters_friction() const override;
   std::vector<output::SlipEvent> events() const override { return {}; }
   void archive(Archive& a) override;
 

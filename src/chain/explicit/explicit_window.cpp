@@ -33,16 +33,28 @@ Displaced displaced(const Share& share, std::size_t from, std::size_t to) {
   const std::size_t wide = reach + (to - from) + beside + more_right, room = wide + 4 * lanes;
   const auto column = [room] { return std::vector<double>(room); };
   Displaced d{static_cast<long>(from) - static_cast<long>(reach), wide, column(), column(), column()};
-  std::vector<double> y(room);
   for (std::size_t j = 0; j < wide; ++j) {
     const auto [now, old] = share.site(d.low + static_cast<long>(j));
     d.now[j + lanes] = now;
     d.old[j + lanes] = old;
   }
+  const Forces& forces = share.forces();
+  std::vector<double> y(room), coefficients(forces.has_contact() ? PeriodicForce::terms * room : 0);
+  LevelSites sites{.offset = d.low - static_cast<long>(lanes),
+                   .left = lanes + 2,  // two sites in, neighbours are there
+                   .right = lanes + wide - 2,
+                   .before = d.old.data(),
+                   .now = d.now.data(),
+                   .next = d.next.data(),
+                   .y = y.data()};
+  if (!coefficients.empty()) {
+    forces.contact_coefficients(sites.offset, lanes, lanes + (wide + lanes - 1) / lanes * lanes, coefficients.data());
+    sites.coefficients = coefficients.data();
+  }
+  if (forces.variables() > 0) sites.states = {forces.state_of(sites.offset), forces.variables()};
   Outflow unused;
-  constexpr std::size_t edge = lanes + 2;  // two sites in, neighbours are there
-  share.forces().level({}, d.low + 2, wide - 4, d.old.data() + edge, d.now.data() + edge, d.next.data() + edge,
-                       y.data() + edge, unused);
+  forces.begin_level({}, sites, unused);
+  forces.add_load_and_friction({}, sites);
   const auto at = [&](long j) { return static_cast<std::size_t>(j - d.low) + lanes; };
   if (absorbs_left) d.next[at(0)] = ends.absorbing_left.step(&d.now[at(0)], &d.next[at(0)]).next;
   if (absorbs_right) d.next[at(n - 1)] = ends.absorbing_right.step(&d.now[at(n - 1)], &d.next[at(n - 1)]).next;

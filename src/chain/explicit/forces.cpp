@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t together = 64;  ///< sites in one pass of the friction loops; a pass with no moving site is cheap
 
-/// Number of sites by which arrays extend past both ends. A chain that advances many levels at a time needs a^2 in its
-/// halos too, up to whole vectors.
-long margin_of(const Problem& p) {
-  return static_cast<long>(p.forcing || p.friction.state_size() > 0 ? margin : halo + 2 * lanes);
-}
-
 /// a(x)^2 on sites [first, last). It is empty if a is 1 everywhere and does not change.
 std::vector<double> a2_of(const Problem& p, long first, long last) {
   std::vector<double> a2;
@@ -39,8 +33,8 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
       sine_(substrate_force(0)),
       dt_(scheme.dt),
       level_(level),
-      first_(static_cast<long>(begin) - margin_of(problem)),
-      last_(static_cast<long>(end) + margin_of(problem)),
+      first_(static_cast<long>(begin) - static_cast<long>(margin)),
+      last_(static_cast<long>(end + margin)),
       nonlinear_(problem.friction.acts() && !problem.friction.linear_coefficient()),
       variables_(problem.friction.state_size()),
       state_(variables_ * at(last_)),
@@ -51,11 +45,22 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
   if (problem_.forcing) {
     F_now_.resize(at(last_));
     evaluate_forcing(problem_.steady_forcing ? 0 : level_, F_now_);
-    if (problem_.steady_forcing) return;
+    if (problem_.steady_forcing) {
+      steady_drive_.resize(at(last_));
+      const double* F = F_now_.data() + 1;
+      add_drive(drive_rule(), F, F, F, steady_drive_.data() + 1, at(last_) - 2);
+      return;
+    }
     F_before_ = F_next_ = F_now_;
     evaluate_forcing(level_ + 1, F_next_);
     evaluate_forcing(level_ - 1, F_before_);
   }
+}
+
+DriveRule Forces::drive_rule() const {
+  const double strength = scheme_.force / turn;
+  return {strength * scheme_.share_next, strength * scheme_.share_before, strength * scheme_.share_now,
+          strength * scheme_.share_neighbour};
 }
 
 void Forces::evaluate_forcing(long level, std::vector<double>& F) const {
@@ -71,24 +76,21 @@ void Forces::evaluate_forcing(long level, std::vector<double>& F) const {
   for (long j = first_; j < last_; ++j) F[at(j)] = problem_.forcing(problem_.grid.x(folded(problem_, j)), t);
 }
 
-void Forces::age(long first, std::size_t size, const double* now, const double* next) {
-  if (variables_ == 0) return;
+void Forces::age(long first, std::size_t size, const double* now, const double* next, double* states) {
   double velocity[together];
   for (std::size_t j = 0; j < size; j += together) {
     const std::size_t some = std::min(together, size - j);
     velocities(turn / dt_, now + j, next + j, velocity, some);
-    if (contacts_.acts()) {
-      age_contacts(first + static_cast<long>(j), some, velocity);
-      continue;
-    }
-    problem_.friction.evolution().advance_all(some, friction::Slips::at(velocity), dt_, variables_,
-                                              state_of(first + static_cast<long>(j)));
+    double* const theirs = states + variables_ * j;
+    if (contacts_.acts())
+      age_contacts(first + static_cast<long>(j), some, velocity, theirs);
+    else
+      problem_.friction.evolution().advance_all(some, friction::Slips::at(velocity), dt_, variables_, theirs);
   }
 }
 
-void Forces::age_contacts(long first, std::size_t size, const double* velocity) {
+void Forces::age_contacts(long first, std::size_t size, const double* velocity, double* theta) {
   double before[together];
-  double* const theta = state_of(first);
   std::copy_n(theta, size, before);
   problem_.friction.evolution().advance_all(size, friction::Slips::at(velocity), dt_, variables_, theta);
   contacts_.advance(first, dt_, {before, size}, {theta, size});
@@ -115,12 +117,12 @@ void Forces::set_states(std::size_t begin, const std::vector<double>& states) {
 
 void Forces::exchange(const Ranks& ranks) {
   if (contacts_.acts()) contacts_.exchange(ranks);
+  if (variables_ > 0) fill_margins(problem_, ranks, first_, variables_, state_);
 }
 
 void Forces::exchange_all(const Ranks& ranks) {
   exchange(ranks);
   if (contacts_.acts()) contacts_.exchange_all(ranks);
-  if (variables_ > 0) fill_margins(problem_, ranks, first_, variables_, state_);
 }
 
 void Forces::proceed() {
@@ -132,54 +134,48 @@ void Forces::proceed() {
   evaluate_forcing(level_ + 1, F_next_);
 }
 
-void Forces::steps_from(long j, std::size_t size, const double* before, const double* now, const double* next,
-                        double* u, double* D, double* B) const {
-  if (a2_.empty()) {
-    take_steps(scheme_.rule.f, scheme_.eps, before, now, next, u, D, B, size);
-    return;
-  }
-  const double* a2_next = contacts_.acts() ? contacts_.next(j) : a2(j);
-  take_steps(scheme_.contact, scheme_.eps, a2_next, before, now, next, u, D, B, size);
+void Forces::contact_coefficients(long offset, std::size_t begin, std::size_t end, double* coefficients) const {
+  if (!a2_.empty()) chain::contact_coefficients(scheme_.contact, a2(offset), coefficients, begin, end);
 }
 
-void Forces::displacements_from(long j, std::size_t size, const double* z, double* u) const {
-  if (a2_.empty())
-    displacements(scheme_.rule.f, scheme_.eps, z, u, size);
+void Forces::next_coefficients(long offset, std::size_t begin, std::size_t end, double* coefficients) const {
+  chain::contact_coefficients(scheme_.contact, contacts_.next(offset), coefficients, begin, end);
+}
+
+void Forces::begin_level(const EndConditions& ends, const LevelSites& s, Outflow& outflow) const {
+  // The second loop needs y of one more site on either side where the chain goes on.
+  const std::size_t begin = (is_end(ends.left) ? s.left : s.left - 1) / lanes * lanes;
+  const std::size_t end = ((is_end(ends.right) ? s.right : s.right + 1) + lanes - 1) / lanes * lanes;
+  if (s.coefficients != nullptr)
+    local_part_with_coefficients(scheme_.rule, s.coefficients, s.now, s.before, s.next, s.y, begin, end, s.step);
   else
-    displacements(scheme_.contact, scheme_.eps, a2(j), z, u, size);
+    local_part(scheme_.rule, s.now, s.before, s.next, s.y, begin, end, s.step);
+  const auto index = [&s](long site) { return static_cast<std::size_t>(site - s.offset); };
+  const std::size_t first = index(0), last = index(static_cast<long>(problem_.grid.sites) - 1);
+  const EndSites bare = before_neighbours(ends, s.next, first, last);
+  add_neighbours(scheme_.rule.spread, s.y, s.next, begin, end);
+  mend_ends(ends, bare, scheme_.rule.spread, s.now, s.y, s.next, first, last, outflow);
 }
 
-void Forces::level(const EndConditions& ends, long offset, std::size_t size, const double* before, const double* now,
-                   double* next, double* y, Outflow& outflow, double* applied) const {
-  if (!a2_.empty()) {
-    const double* a2 = this->a2(offset - 1);
-    local_part_with_contact(scheme_.rule, scheme_.contact, a2, now - 1, before - 1, next - 1, y - 1, 0, size + 2);
-  } else {
-    local_part(scheme_.rule, now - 1, before - 1, next - 1, y - 1, 0, (size + 2 + lanes - 1) / lanes * lanes);
-  }
-  // Indices count from two sites before the first, so that they are not negative on the other side of a seam.
-  const EndSites bare = before_neighbours(ends, next - 2, 2, size + 1);
-  add_neighbours(scheme_.rule.spread, y, next, 0, (size + lanes - 1) / lanes * lanes);
+void Forces::add_load_and_friction(const EndConditions& ends, const LevelSites& s) const {
   const auto given = [](EndCondition side) { return side == EndCondition::fixed || side == EndCondition::absorbing; };
-  const std::size_t from = given(ends.left) ? 1 : 0, to = given(ends.right) ? size - 1 : size;
-  mend_ends(ends, bare, scheme_.rule.spread, now - 2, y - 2, next - 2, 2, size + 1, outflow);
+  const std::size_t from = given(ends.left) ? s.left + 1 : s.left, to = given(ends.right) ? s.right - 1 : s.right;
   if (!F_now_.empty()) {
-    const long first = offset + static_cast<long>(from);
-    const double strength = scheme_.force / turn;
-    const DriveRule rule{strength * scheme_.share_next, strength * scheme_.share_before, strength * scheme_.share_now,
-                         strength * scheme_.share_neighbour};
-    add_drive(rule, F_before(first), F_now(first), F_next(first), next + from, to - from);
+    const long first = s.offset + static_cast<long>(from);
+    if (steady())
+      add_steady_drive(steady_drive_.data() + at(first), s.next + from, to - from);
+    else
+      add_drive(drive_rule(), F_before(first), F_now(first), F_next(first), s.next + from, to - from);
   }
   if (!nonlinear_) return;
-  if (applied != nullptr) applied[0] = applied[size - 1] = 0;
-  add_friction(offset, from, to, before, now, next, applied);
+  if (s.applied != nullptr) s.applied[s.left] = s.applied[s.right - 1] = 0;  // ends that are given have none
+  add_friction(s, from, to);
 }
 
-void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const double* before, const double* now,
-                          double* next, double* applied) const {
+void Forces::add_friction(const LevelSites& s, std::size_t begin, std::size_t end) const {
   const friction::Friction& f = problem_.friction;
   if (const auto strength = f.constant_strength()) {
-    shorten_steps(dt_ * dt_ * *strength / turn, now + begin, next + begin, end - begin);
+    shorten_steps(dt_ * dt_ * *strength / turn, s.now + begin, s.next + begin, end - begin);
     return;
   }
   // Friction is centred on the level if that is stable. A law that is steep at rest acts on the half step after the
@@ -189,37 +185,20 @@ void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const
   double free[together], speed[together];
   for (std::size_t j = begin; j < end; j += together) {
     const std::size_t some = std::min(together, end - j);
-    const double* from = (centred ? before : now) + j;
-    double* force = applied == nullptr ? nullptr : applied + j;
-    if (!free_speeds(turn / time, from, next + j, free, some)) {
+    const double* from = (centred ? s.before : s.now) + j;
+    double* force = s.applied == nullptr ? nullptr : s.applied + j;
+    if (!free_speeds(turn / time, from, s.next + j, free, some)) {
       if (force != nullptr) std::fill_n(force, some, 0.0);
-      std::copy_n(from, some, next + j);
+      std::copy_n(from, some, s.next + j);
       continue;
     }
-    const long site = offset + static_cast<long>(j);
-    const friction::LocalStates states = states_from(site);
+    const friction::LocalStates states = s.states.from(j);
     if (contacts_.have_pressure())
-      f.loops().speeds_after_under(some, contacts_.share(site), free, weight, states, speed);
+      f.loops().speeds_after_under(some, contacts_.share(s.offset + static_cast<long>(j)), free, weight, states, speed);
     else
       f.loops().speeds_after(some, free, weight, states, speed);
-    take_speeds(turn / time, 1 / weight, from, free, speed, next + j, force, some);
+    take_speeds(turn / time, 1 / weight, from, free, speed, s.next + j, force, some);
   }
-}
-
-double Forces::work_of_friction(long j, std::size_t size, const double* D, const double* applied) const {
-  if (problem_.friction.steep_at_rest()) return sum_of_products(applied, D, size);
-  double speed[together], force[together], sum = 0;
-  for (std::size_t at = 0; at < size; at += together) {
-    const std::size_t some = std::min(together, size - at);
-    for (std::size_t i = 0; i < some; ++i) speed[i] = std::fabs(D[at + i]) / dt_;
-    problem_.friction.loops().strengths(some, speed, states_from(j + static_cast<long>(at)), force);
-    sum += dt_ * sum_of_products(force, speed, some);
-  }
-  return sum;
-}
-
-double Forces::energy_of_contacts(long j, std::size_t size, const double* u, const double* D) const {
-  return chain::energy_of_contacts(sine_, contacts_.now(j), contacts_.next(j), u, D, size);
 }
 
 }  // namespace slipfront::chain

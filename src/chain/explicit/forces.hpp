@@ -8,22 +8,40 @@
 
 namespace slipfront::chain {
 
-/// All forces on a site except springs, a substrate of strength 1 and viscous friction. A chain with forcing, other
-/// friction or contacts that change advances by one level at a time, with `level`. Other chains can advance many levels
-/// at a time.
+/// Sites [left, right) whose next level is computed, as indices of arrays that begin at site `offset` of the chain. The
+/// arrays have a vector more on either side of them.
+struct LevelSites {
+  long offset;
+  std::size_t left, right;
+  const double *before, *now;
+  double *next, *y;                      ///< `next` may be `before`, unless friction has an implicit speed
+  const double* coefficients = nullptr;  ///< of the contact force (contact_coefficients), if a varies
+  friction::LocalStates states = {};
+  double* applied = nullptr;  ///< gets the friction force on each site, if it is neither linear nor constant
+  StepOfU step = {};
+};
+
+/// All forces on the sites of a rank.
 class Forces {
  public:
   /// The forces on sites [begin, end) and on some more on either side. These continue around a periodic chain, and are
   /// reflected at the ends of other chains.
   Forces(const Problem& problem, const Scheme& scheme, long level, std::size_t begin, std::size_t end);
 
-  bool by_level() const { return !F_now_.empty() || nonlinear_; }
+  /// Whether one level must be complete, on all sites, before the next one begins.
+  bool level_by_level() const { return !steady() || contacts_.acts(); }
+  /// Whether friction has an implicit speed, so that a next level needs the two before it.
+  bool implicit_speed() const { return nonlinear_ && !problem_.friction.constant_strength(); }
+  /// Whether a differs from 1 or changes.
+  bool has_contact() const { return !a2_.empty(); }
   /// a(x)^2 from site j on; null if it is 1 everywhere.
   const double* a2(long j) const {
     return contacts_.acts() ? contacts_.now(j) : a2_.empty() ? nullptr : a2_.data() + at(j);
   }
   /// Contacts that change with the state of friction.
   const ContactField& contacts() const { return contacts_; }
+  /// Whether F is absent or does not change.
+  bool steady() const { return F_next_.empty(); }
   /// Arrays of F from site j on, at the present level, the level before and the next one. They are null without
   /// forcing.
   const double* F_now(long j) const { return F_now_.empty() ? nullptr : F_now_.data() + at(j); }
@@ -33,25 +51,35 @@ class Forces {
   double now(long j) const { return F_now_.empty() ? 0.0 : F_now_[at(j)]; }
   double rate(long j) const { return steady() ? 0.0 : (F_next_[at(j)] - F_before_[at(j)]) / (2 * dt_); }
 
-  /// Computes the next level of `size` sites, from site `offset` of the chain on. Arrays begin at that site. `now` and
-  /// `before` also hold two neighbours on the left and ten on the right; `next` and `y` have room for them. If
-  /// `applied` is not null, it gets the friction force on each site, for friction that is neither linear nor constant.
-  void level(const EndConditions& ends, long offset, std::size_t size, const double* before, const double* now,
-             double* next, double* y, Outflow& outflow, double* applied = nullptr) const;
-  /// The work of such friction on `size` sites from site j on in a step D (radians). It uses the forces that were
-  /// applied if the law acts on the half step, and otherwise the forces at the velocity of the step.
-  double work_of_friction(long j, std::size_t size, const double* D, const double* applied) const;
-  /// Energy, divided by the spacing, that contacts give to the substrate at `size` sites from site j on. The step D
+  /// Computes the next level but for the load and friction that is not linear, which `add_load_and_friction` adds.
+  void begin_level(const EndConditions& ends, const LevelSites& sites, Outflow& outflow) const;
+  void add_load_and_friction(const EndConditions& ends, const LevelSites& sites) const;
+  /// The coefficients for indices [begin, end) of arrays that begin at site `offset`, if a varies; and those of the
+  /// next level, if contacts change.
+  void contact_coefficients(long offset, std::size_t begin, std::size_t end, double* coefficients) const;
+  void next_coefficients(long offset, std::size_t begin, std::size_t end, double* coefficients) const;
+  /// Computes u from z, both in turns, on indices [begin, end).
+  void displacements(const double* coefficients, const double* z, double* u, std::size_t begin, std::size_t end) const {
+    chain::displacements(scheme_.rule.f, scheme_.eps, coefficients, z, u, begin, end);
+  }
+  double eps() const { return scheme_.eps; }
+  /// Energies, divided by the spacing, that contacts give to the substrate at `size` sites from site j on. The step D
   /// ends at u.
-  double energy_of_contacts(long j, std::size_t size, const double* u, const double* D) const;
+  void energies_of_contacts(long j, std::size_t size, const double* u, const double* D, double* energies) const {
+    chain::energies_of_contacts(sine_, contacts_.now(j), contacts_.next(j), u, D, energies, size);
+  }
   /// (all) Gets what a level needs from the sites next to those of this rank.
   void exchange(const Ranks& ranks);
   /// (all) Gets everything of these sites, which windows need.
   void exchange_all(const Ranks& ranks);
   /// Moves to the next level.
   void proceed();
+  /// The state variables of sites from j on, `variables` for each.
+  double* state_of(long j) { return state_.data() + variables_ * at(j); }
+  const double* state_of(long j) const { return state_.data() + variables_ * at(j); }
+  std::size_t variables() const { return variables_; }
   /// Advances the state variables of `size` sites from site `first` on by the step from `now` to `next`.
-  void age(long first, std::size_t size, const double* now, const double* next);
+  void age(long first, std::size_t size, const double* now, const double* next, double* states);
   /// The state variables of sites [begin, end), site by site. Most laws have none.
   std::vector<double> states(std::size_t begin, std::size_t end) const;
   void set_states(std::size_t begin, const std::vector<double>& states);
@@ -66,29 +94,16 @@ class Forces {
   double friction(long j, double velocity) const {
     return (contacts_.acts() ? *contacts_.share(j) : 1.0) * problem_.friction.force(velocity, state(j));
   }
-  /// Computes u from z, both in turns, for `size` sites from site j on.
-  void displacements_from(long j, std::size_t size, const double* z, double* u) const;
-  /// Computes the steps D and B (take_steps in kernel.hpp) of `size` sites from site j on. It sets u to its value at
-  /// the next level. If contacts change, call `age` first.
-  void steps_from(long j, std::size_t size, const double* before, const double* now, const double* next, double* u,
-                  double* D, double* B) const;
 
  private:
   friction::LocalState state(long j) const {
     return variables_ == 0 ? friction::LocalState{} : friction::LocalState{state_of(j), variables_};
   }
-  const double* state_of(long j) const { return state_.data() + variables_ * at(j); }
-  double* state_of(long j) { return state_.data() + variables_ * at(j); }
   std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
+  DriveRule drive_rule() const;
   void evaluate_forcing(long level, std::vector<double>& F) const;
-  bool steady() const { return F_next_.empty(); }
-  /// Adds friction to sites [begin, end) of arrays that begin at site `offset`.
-  void add_friction(long offset, std::size_t begin, std::size_t end, const double* before, const double* now,
-                    double* next, double* applied) const;
-  void age_contacts(long first, std::size_t size, const double* velocity);
-  friction::LocalStates states_from(long j) const {
-    return variables_ == 0 ? friction::LocalStates{} : friction::LocalStates{state_of(j), variables_};
-  }
+  void add_friction(const LevelSites& sites, std::size_t begin, std::size_t end) const;
+  void age_contacts(long first, std::size_t size, const double* velocity, double* states);
 
   Problem problem_;
   Scheme scheme_;
@@ -102,6 +117,7 @@ class Forces {
   std::vector<double> a2_;     ///< a^2; at t = 0 if it changes
   ContactField contacts_;
   std::vector<double> F_before_, F_now_, F_next_;  ///< only F_now_ is filled if F does not depend on t
+  std::vector<double> steady_drive_;               ///< and then its effect on each level
 };
 
 }  // namespace slipfront::chain

@@ -13,24 +13,12 @@
 namespace slipfront::chain {
 namespace {
 
-/// Up to this number of sites, a chain with only viscous friction advances by one level at a time and measures the
-/// work. This costs about a nanosecond more for each site and level. The alternative, 200 samples in a run, costs as
-/// much as 13 000 such levels.
-constexpr std::size_t metered_sites = 10000;
-
-/// Cuts sites [begin, end) into pieces that fit into the innermost cache together with their forces and works. A piece
-/// is as many whole blocks as fit, or a part of a longer block.
-std::vector<std::size_t> pieces_of(const Blocks& blocks, std::size_t begin, std::size_t end) {
-  constexpr std::size_t piece = WorkMeter::piece;
+/// Cuts sites [begin, end) into tiles of as many whole blocks as have `most` sites.
+std::vector<std::size_t> cuts_of(const Blocks& blocks, std::size_t begin, std::size_t end, std::size_t most) {
   std::vector<std::size_t> cuts{begin};
   while (cuts.back() < end) {
-    const std::size_t from = cuts.back();
-    std::size_t block = blocks.of(from) + 1;
-    if (blocks.begin(block) - from > 2 * piece) {
-      cuts.push_back(from + piece);
-      continue;
-    }
-    while (blocks.begin(block) < end && blocks.begin(block + 1) - from <= piece) ++block;
+    std::size_t block = blocks.of(cuts.back()) + 1;
+    while (blocks.begin(block) < end && blocks.begin(block + 1) - cuts.back() <= most) ++block;
     cuts.push_back(blocks.begin(block));
   }
   return cuts;
@@ -78,8 +66,7 @@ Share::Share(const Problem& p, const Execution& e, const Ranks& ranks, long at)
       begin_(blocks_.begin(first_block_)),
       end_(blocks_.begin(end_block_)),
       forces_(p, scheme_, at, begin_, end_),
-      level_by_level_(forces_.by_level() || (p.friction.acts() && p.grid.sites <= metered_sites)),
-      meter_(problem_, level_by_level_ && (p.forcing || p.friction.acts()), scheme_, blocks_, first_block_, end_block_),
+      meter_(problem_, scheme_, blocks_, first_block_, end_block_),
       level_(at) {
   check_execution();
   make_slabs();
@@ -95,7 +82,6 @@ void Share::check_execution() const {
 void Share::make_slabs() {
   const std::size_t whole = end_block_ - first_block_;
   const std::size_t count = std::clamp<std::size_t>(whole, 1, static_cast<std::size_t>(execution_.threads));
-  execution_.tile = std::max(execution_.tile / lanes * lanes, 2 * halo);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t from = blocks_.begin(first_block_ + whole * i / count);
     const std::size_t to = blocks_.begin(first_block_ + whole * (i + 1) / count);
@@ -104,13 +90,11 @@ void Share::make_slabs() {
     if (to < problem_.grid.sites) s.right = EndCondition::joined;
     slabs_.emplace_back(from, to - from, s);
   }
-  depth_ = level_by_level_ ? 1 : std::min(halo, end_ - begin_);
-  if (!level_by_level_) return;
-  for (const Slab& slab : slabs_) {
-    constexpr std::size_t room = 2 * WorkMeter::piece + 4 * lanes;  // the longest piece and the sites next to it
-    by_level_.push_back({pieces_of(blocks_, slab.begin(), slab.begin() + slab.size()), Aligned(room), Aligned(room),
-                         WorkMeter::Room(meter_.active() ? room : 0)});
-  }
+  depth_ = forces_.level_by_level() ? 1 : std::min(halo, end_ - begin_);
+  sweeps_.reserve(slabs_.size());
+  for (Slab& slab : slabs_)
+    sweeps_.emplace_back(slab, forces_, meter_,
+                         cuts_of(blocks_, slab.begin(), slab.begin() + slab.size(), execution_.tile));
 }
 
 void Share::fill(const LevelsOf& source) {
@@ -126,7 +110,6 @@ void Share::fill(const LevelsOf& source) {
       std::copy_n(levels.now.data(), size, slab.now() + at);
       std::copy_n(levels.before.data(), size, slab.old() + at);
       if (states > 0) forces_.set_states(from, levels.state);
-      meter_.start(forces_, from, size, slab.now() + at);
     }
   forces_.resumed();
 }
@@ -172,36 +155,6 @@ void Share::exchange() {
   forces_.exchange_all(ranks_);
 }
 
-void Share::advance_slab(std::size_t i, std::size_t count) {
-  if (level_by_level_)
-    advance_by_one_level(i);
-  else
-    slabs_[i].advance(scheme_, forces_.a2(static_cast<long>(slabs_[i].begin())), count, execution_.tile);
-}
-
-void Share::advance_by_one_level(std::size_t i) {
-  Slab& slab = slabs_[i];
-  ByLevel& room = by_level_[i];
-  double *const next = room.next.data() + lanes, *const y = room.y.data() + lanes;
-  for (std::size_t piece = 0; piece + 1 < room.cuts.size(); ++piece) {
-    const std::size_t first = room.cuts[piece], size = room.cuts[piece + 1] - first, at = first - slab.begin();
-    EndConditions here = slab.ends();
-    if (piece > 0) here.left = EndCondition::joined;
-    if (piece + 2 < room.cuts.size()) here.right = EndCondition::joined;
-    const double *now = slab.now() + at, *before = slab.old() + at;
-    forces_.level(here, static_cast<long>(first), size, before, now, next, y, slab.outflow,
-                  meter_.active() ? room.work.friction.data() : nullptr);
-    // Contacts that change must be advanced first, because the displacement at the next level depends on them. Friction
-    // has acted already. Other state variables are advanced after the work of friction is measured.
-    const bool changes = forces_.contacts().acts();
-    if (changes) forces_.age(static_cast<long>(first), size, now, next);
-    if (meter_.active()) meter_.add(forces_, first, first + size, before, now, next, room.work);
-    if (!changes) forces_.age(static_cast<long>(first), size, now, next);
-    std::copy_n(next, size, slab.old() + at);
-  }
-  slab.swap();
-}
-
 /// Calls each(i) for every slab, on a thread for each slab. `levels` is the number of levels that the slabs advance.
 template <class Each>
 void Share::for_slabs(std::size_t levels, const Each& each) {
@@ -212,10 +165,13 @@ void Share::for_slabs(std::size_t levels, const Each& each) {
 void Share::advance(std::size_t count) {
   if (ranks_.size() > 1) exchange_with_ranks();
   forces_.exchange(ranks_);
-  for_slabs(count, [this](std::size_t i) { exchange_slab(i); });
-  for_slabs(count, [this, count](std::size_t i) { advance_slab(i, count); });
+  for_slabs(count, [this](std::size_t i) {
+    exchange_slab(i);
+    sweeps_[i].exchange_states();
+  });
+  for_slabs(count, [this, count](std::size_t i) { sweeps_[i].advance(count); });
   level_ += static_cast<long>(count);
-  if (forces_.by_level()) forces_.proceed();
+  if (forces_.level_by_level()) forces_.proceed();
 }
 
 void Share::check_numbers() const {
@@ -288,10 +244,9 @@ std::vector<double> Share::flow_sums() const {
 }
 
 void Share::continue_flows(const std::vector<double>& sums) {
-  const std::size_t kinds = WorkMeter::kinds(problem_), all = kinds * blocks_.count + 2;
+  const std::size_t each = WorkMeter::sums_of_block(problem_), all = each * blocks_.count + 2;
   if (sums.size() != all) refuse_levels(sums.size(), std::to_string(all));
-  std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(kinds * first_block_), meter_.sums.size(),
-              meter_.sums.begin());
+  std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(each * first_block_), meter_.sums.size(), meter_.sums.begin());
   if (begin_ == 0) slabs_.front().outflow.left = sums[all - 2];
   if (end_ == problem_.grid.sites) slabs_.back().outflow.right = sums.back();
 }
@@ -299,12 +254,8 @@ void Share::continue_flows(const std::vector<double>& sums) {
 Flows Share::flows() const {
   Flows flows;
   const std::vector<double> all = flow_sums();
-  const std::size_t kinds = WorkMeter::kinds(problem_);
-  for (std::size_t i = 0; i + 2 < all.size(); i += kinds) {
-    flows.supplied += all[i];
-    flows.dissipated += all[i + 1];
-    if (kinds > 2) flows.by_contacts += all[i + 2];
-  }
+  double* const kinds[] = {&flows.supplied, &flows.dissipated, &flows.by_contacts};
+  for (std::size_t i = 0; i + 2 < all.size(); ++i) *kinds[i / lanes % WorkMeter::kinds(problem_)] += all[i];
   flows.outflow = all[all.size() - 2] + all.back();
   return flows;
 }

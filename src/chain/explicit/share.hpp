@@ -8,6 +8,7 @@
 #include "chain/explicit/levels/levels.hpp"
 #include "chain/explicit/levels/scheme.hpp"
 #include "chain/explicit/levels/slab.hpp"
+#include "chain/explicit/sweep.hpp"
 #include "chain/explicit/work_meter.hpp"
 #include "chain/model/blocks.hpp"
 #include "foundation/ranks.hpp"
@@ -33,9 +34,6 @@ class Share {
   long level() const { return level_; }
   double time() const { return static_cast<double>(level_) * scheme_.dt; }
   std::size_t depth() const { return depth_; }  ///< largest number of levels between two exchanges
-  /// Whether the share advances by one level at a time and measures works. Otherwise each tile advances by 32 levels at
-  /// a time.
-  bool level_by_level() const { return level_by_level_; }
 
   /// Reads the levels from `source`, in pieces.
   void fill(const LevelsOf& source);
@@ -59,20 +57,12 @@ class Share {
   Flows flows() const;  ///< (all)
 
  private:
-  /// The arrays that a slab needs to advance by one level, and the sites at which its pieces begin and end.
-  struct ByLevel {
-    std::vector<std::size_t> cuts;
-    Aligned next, y;
-    WorkMeter::Room work;
-  };
   void check_execution() const;
   void make_slabs();
   void exchange_with_ranks();
   void exchange_slab(std::size_t i);
   template <class Each>
   void for_slabs(std::size_t levels, const Each& each);
-  void advance_slab(std::size_t i, std::size_t count);
-  void advance_by_one_level(std::size_t i);
 
   const Ranks& ranks_;
   Problem problem_;
@@ -83,11 +73,10 @@ class Share {
   std::size_t first_block_, end_block_;  ///< blocks of this rank
   std::size_t begin_, end_;              ///< sites of these blocks
   Forces forces_;
-  bool level_by_level_;
   WorkMeter meter_;
   std::vector<Slab> slabs_;
+  std::vector<Sweep> sweeps_;  ///< of each slab
   long level_;
-  std::vector<ByLevel> by_level_;  ///< for each slab; empty unless level_by_level_
   std::size_t depth_ = halo;
 };
 

@@ -32,10 +32,6 @@ class ImplicitChain final : public Chain {
   std::optional<double> constant_step() const override { return std::nullopt; }
   void exchange() const override;
   Window own_window(std::size_t begin, std::size_t end, double time) const override;
-  double forcing(std::size_t site) const override { return forces_.forcing(now_, own(site)); }
-  double friction(std::size_t site, double velocity) const override {
-    return forces_.friction(now_, own(site), velocity);
-  }
   SpringEnergy spring_energy() const override;
   double load() const override { return parts_.load(now_); }
 
@@ -45,7 +41,6 @@ class ImplicitChain final : public Chain {
   bool between_steps() const override { return !passed_; }
   bool valid() const override { return true; }  // a step that fails is not taken
   Flows flows() const override;
-  bool meters_friction() const override { return true; }
   std::size_t event_in_progress() const override { return now_.log.in_progress(); }
   std::vector<output::SlipEvent> events() const override { return now_.log.events(); }
   output::FrontRecords fronts() const override { return now_.fronts.records(); }

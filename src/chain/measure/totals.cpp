@@ -15,9 +15,9 @@ namespace slipfront::chain {
 namespace {
 
 /// The sums among the totals, as so many numbers in a row.
-constexpr std::size_t sums = 7;
+constexpr std::size_t sums = 5;
 std::array<double*, sums> summed(Totals& t, double& dislocations) {
-  return {&t.kinetic, &t.elastic, &t.substrate, &t.momentum, &t.supplied_rate, &t.dissipated_rate, &dislocations};
+  return {&t.kinetic, &t.elastic, &t.substrate, &t.momentum, &dislocations};
 }
 
 /// Adds sites [begin, end), seen in a window that has two more on either side where there are.
@@ -32,8 +32,6 @@ void add(const Sites& chain, const Window& w, std::size_t begin, std::size_t end
     t.kinetic += weight * velocity * velocity / 2;
     t.substrate += weight * w.contact_squared[j - low] * (1 - cosine);
     t.momentum += weight * velocity * w.stress[j - low];
-    t.supplied_rate += weight * velocity * chain.forcing(j);
-    t.dissipated_rate += weight * velocity * chain.friction(j, velocity);
     t.elastic += h * elastic_energy(u, j, n, h, p.model);
     if (j + 1 >= n) continue;
     dislocations += std::fabs(std::floor(u(j + 1) / turn - 0.5) - std::floor(u(j) / turn - 0.5));
@@ -79,18 +77,6 @@ Totals totals(const Sites& chain) {
   t.loading = springs.loading;
   t.dislocations = std::lround(std::fmin(all_found, 9e18));  // at least this number, of a chain that has diverged
   return t;
-}
-
-void Work::sample(const Totals& now) {
-  if (started) {
-    const double half = (now.time - time) / 2;
-    supplied += half * (supplied_rate + now.supplied_rate);
-    dissipated += half * (dissipated_rate + now.dissipated_rate);
-  }
-  started = true;
-  time = now.time;
-  supplied_rate = now.supplied_rate;
-  dissipated_rate = now.dissipated_rate;
 }
 
 }  // namespace slipfront::chain

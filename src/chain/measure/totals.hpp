@@ -14,24 +14,11 @@ struct Totals {
   double substrate = 0;        ///< sum of a^2 (1 - cos u), with the present a^2
   double loading = 0;          ///< energy of the springs that load the chain (Loading)
   double momentum = 0;         ///< sum of -u_t u_x
-  double supplied_rate = 0;    ///< power of F, sum of F u_t
-  double dissipated_rate = 0;  ///< power of friction, sum of f(u_t) u_t
   double steepest = 0;         ///< largest difference of u between neighbours
   double energy() const { return kinetic + elastic + substrate + loading; }
 };
 
 /// (all) The totals at the present time. The order of summation does not depend on the number of threads and ranks.
 Totals totals(const Sites& chain);
-
-/// Work since the first sample, by the trapezoidal rule between samples. Sample a long chain, whose rates are smooth,
-/// every few time units, and a single dislocation every few steps.
-struct Work {
-  double time = 0, supplied_rate = 0, dissipated_rate = 0;  ///< values at the last sample
-  double supplied = 0, dissipated = 0;
-  bool started = false;
-
-  void sample(const Totals& now);
-  void archive(auto& a) { a(supplied, dissipated, time, supplied_rate, dissipated_rate); }
-};
 
 }  // namespace slipfront::chain

@@ -8,14 +8,15 @@
 
 namespace slipfront::chain {
 
-/// The sites of a chain in blocks of 64 or more, which depend only on the number of sites. Ranks hold whole blocks, and
+/// The sites of a chain in blocks of 64 to 2048, which depend only on the number of sites. Ranks hold whole blocks, and
 /// sums over the chain are sums over blocks, added up in order: the same bits whatever the ranks.
 struct Blocks {
-  static constexpr std::size_t least = 64;  ///< two halos
-  static constexpr std::size_t most = 4096;
+  static constexpr std::size_t least = 64;   ///< two halos
+  static constexpr std::size_t most = 2048;  ///< fits into the innermost cache
+  static constexpr std::size_t usual_count = 4096;
 
   std::size_t sites;
-  std::size_t count = std::clamp<std::size_t>(sites / least, 1, most);
+  std::size_t count = std::max(std::clamp<std::size_t>(sites / least, 1, usual_count), sites / most);
 
   std::size_t begin(std::size_t block) const { return sites / count * block + sites % count * block / count; }
   /// The block of a site: begin(b) is b sites / count, rounded down.

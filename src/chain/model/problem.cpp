@@ -28,8 +28,6 @@ void check_ends(const Problem& p) {
                         .allowed = "free or fixed, or friction without contact_ageing and dilatancy"});
 }
 
-bool plain(const Problem& p) { return !p.forcing && p.friction.linear_coefficient(); }
-
 /// The step at which the amplitude f of the shortest wave in x and t, (-1)^(site + level) f, obeys
 ///     f_tt - f_xx + ((a^2 - a^2 cos u) / 3 + mass^2) f = 0:
 /// 4 / dt^2 = 4 / h^2 + a^2 / 3 + mass^2. It is pumped where cos u varies at twice its least frequency, mass, or more
@@ -69,11 +67,14 @@ double largest_contact(const Problem& p) {
 double chosen_step(const Problem& p) { return p.step > 0 ? p.step : chosen(p, largest_contact(p)); }
 
 double memory_needed(const Problem& p) {
-  // Implicit steps store the motion at three times, a step that is tried, and a matrix. Explicit steps store two levels
-  // and the initial displacement, and the contact. Unless the chain is plain, they also store three levels of the force
-  // and the displacement at the last level. Contacts that change add theta, the pressure and five numbers each.
-  const double by_implicit = 40 + 3 * static_cast<double>(p.friction.state_size());
-  const double by_explicit = plain(p) ? (p.contact ? 4 : 3) : p.friction.changes_contacts() ? 15 : 8;
+  // Implicit steps store the motion at three times, a step that is tried, and a matrix. Explicit steps store two levels,
+  // the initial displacement and the state of friction, and the contact. A steady force has its effect too, one that
+  // changes three levels, and three more at the start. Contacts that change add the pressure and six numbers each.
+  const auto state = static_cast<double>(p.friction.state_size());
+  const bool changes = p.friction.changes_contacts();
+  const double by_implicit = 40 + 3 * state;
+  const double by_explicit = 3 + state + (p.contact || changes ? 1 : 0) + (changes ? 7 : 0) +
+                             (!p.forcing ? 0 : p.steady_forcing ? 2 : 6);
   return static_cast<double>(p.grid.sites) * 8 * (p.implicit ? by_implicit : by_explicit);
 }
 

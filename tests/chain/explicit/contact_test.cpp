@@ -40,27 +40,12 @@ TEST(ChainContact, ForceFollowsFromZ) {
   const Sites sites;
   LevelRule rule;
   rule.coupled = 1;  // y = z - S
-  std::vector<double> next(Sites::count), y(Sites::count);
-  local_part_with_contact(rule, sites.force, sites.a2.data(), sites.z.data(), next.data(), next.data(), y.data(), 0,
-                          Sites::count);
+  std::vector<double> next(Sites::count), y(Sites::count), coefficients(PeriodicForce::terms * Sites::count);
+  contact_coefficients(sites.force, sites.a2.data(), coefficients.data(), 0, Sites::count);
+  local_part_with_coefficients(rule, coefficients.data(), sites.z.data(), next.data(), next.data(), y.data(), 0,
+                               Sites::count);
   for (std::size_t j = 0; j < Sites::count; ++j)
     EXPECT_NEAR(sites.z[j] - y[j], sites.S[j], 1e-7 * sites.a2[j] / turn) << "a^2 = " << sites.a2[j];
-}
-
-TEST(ChainContact, StoredCoefficientsGiveTheSameStep) {
-  const Sites sites;
-  const LevelRule rule{.f = {}, .coupled = 0.02, .keep = 0.1, .force = 0.15, .before = 0.9, .spread = 0.95};
-  std::vector<double> next(Sites::count, 0.25), y(next), other_next(next), other_y(next);
-  local_part_with_contact(rule, sites.force, sites.a2.data(), sites.z.data(), next.data(), next.data(), y.data(), 0,
-                          Sites::count);
-  std::vector<double> coefficients(PeriodicForce::terms * Sites::count);
-  contact_coefficients(sites.force, sites.a2.data(), coefficients.data(), 0, Sites::count);
-  local_part_with_coefficients(rule, coefficients.data(), sites.z.data(), other_next.data(), other_next.data(),
-                               other_y.data(), 0, Sites::count);
-  for (std::size_t j = 0; j < Sites::count; ++j) {
-    EXPECT_NEAR(next[j], other_next[j], 1e-15);
-    EXPECT_NEAR(y[j], other_y[j], 1e-15);
-  }
 }
 
 double contact_at(double x) { return 1 + 0.3 * std::sin(0.7 * x); }

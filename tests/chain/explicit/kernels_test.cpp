@@ -11,42 +11,49 @@ namespace {
 
 namespace chains = slipfront::chain;
 
-/// All sites count, also those that do not fill a vector.
-TEST(ChainKernels, WorkOfCoulombFrictionCountsAllSites) {
-  for (std::size_t size = 1; size <= 40; ++size) {
-    std::vector<double> D;
-    double sum = 0;
-    for (std::size_t j = 0; j < size; ++j) {
-      D.push_back((j % 2 == 0 ? 1 : -1) * std::sqrt(static_cast<double>(j + 1)));
-      sum += std::fabs(D.back());
+/// Sums over blocks of any size are those of their definitions: all sites count, also those that do not fill a vector.
+TEST(ChainKernels, SumOverAllSitesOfTheirBlocks) {
+  const std::size_t begins[] = {5, 6, 14, 31, 71};
+  std::vector<double> a, b;
+  for (int j = 0; j < 66; ++j) {
+    a.push_back((j % 2 == 0 ? 1 : -1) * std::sqrt(j + 1.0));
+    b.push_back(std::cos(0.3 * j));
+  }
+  std::vector<double> values(4 * chains::lanes), absolutes(values), products(values);
+  chains::add_values({begins, 4, values.data(), chains::lanes}, 2, a.data());
+  chains::add_absolutes({begins, 4, absolutes.data(), chains::lanes}, 3, a.data());
+  chains::add_products({begins, 4, products.data(), chains::lanes}, 0.5, a.data(), b.data());
+  for (std::size_t i = 0; i < 4; ++i) {
+    double sum = 0, sum_of_absolutes = 0, sum_of_products = 0;
+    for (std::size_t j = begins[i] - 5; j < begins[i + 1] - 5; ++j) {
+      sum += 2 * a[j];
+      sum_of_absolutes += 3 * std::fabs(a[j]);
+      sum_of_products += 0.5 * a[j] * b[j];
     }
-    EXPECT_NEAR(chains::work_of_coulomb_friction(D.data(), size), sum, 1e-13 * sum) << size;
+    for (std::size_t k = 0; k < chains::lanes; ++k) {
+      sum -= values[chains::lanes * i + k];
+      sum_of_absolutes -= absolutes[chains::lanes * i + k];
+      sum_of_products -= products[chains::lanes * i + k];
+    }
+    EXPECT_NEAR(sum, 0, 1e-12) << i;
+    EXPECT_NEAR(sum_of_absolutes, 0, 1e-12) << i;
+    EXPECT_NEAR(sum_of_products, 0, 1e-12) << i;
   }
 }
 
-/// Sums over sites are those of their definitions, for any number of sites.
-TEST(ChainKernels, SumWorkAndEnergyOverAllSites) {
+TEST(ChainKernels, WorkAndEnergyOfASite) {
   const double two_pi = 2 * std::acos(-1.0);
   const chains::PeriodicForce sine = chains::substrate_force(0);
-  for (std::size_t size = 1; size <= 40; ++size) {
-    std::vector<double> before, now, next, D, B, a2, a2_next, u;
-    double work = 0, energy = 0;
-    for (std::size_t j = 0; j < size; ++j) {
-      const auto i = static_cast<double>(j);
-      before.push_back(std::sin(i));
-      now.push_back(1 + std::cos(2 * i));
-      next.push_back(std::sin(3 * i) - 0.4);
-      D.push_back(0.3 * std::cos(i + 1));
-      B.push_back(0.2 * std::sin(i + 2));
-      a2.push_back(0.5 + 0.3 * std::sin(2 * i));
-      a2_next.push_back(0.6 + 0.2 * std::cos(i));
-      u.push_back(0.37 * i);
-      // Simpson's rule, with the force over the step as a parabola in time.
-      work += (now[j] + next[j]) / 2 * D[j] + (next[j] - before[j]) / 12 * B[j];
-      energy += (a2_next[j] - a2[j]) * (1 - (std::cos(two_pi * u[j]) + std::cos(two_pi * u[j] - D[j])) / 2);
-    }
-    EXPECT_NEAR(chains::work_of_force(before.data(), now.data(), next.data(), D.data(), B.data(), size), work, 1e-13);
-    EXPECT_NEAR(chains::energy_of_contacts(sine, a2.data(), a2_next.data(), u.data(), D.data(), size), energy, 1e-9);
+  const std::vector<double> before{0.3, -1}, now{1.2, 0.1}, next{-0.4, 0.7}, D{0.3, -0.2}, B{0.2, 0.1};
+  const std::vector<double> a2{0.5, 0.3}, a2_next{0.6, 0.2}, u{0.37, -2.2};
+  double work[2], energy[2];
+  chains::works_of_force(before.data(), now.data(), next.data(), D.data(), B.data(), work, 2);
+  chains::energies_of_contacts(sine, a2.data(), a2_next.data(), u.data(), D.data(), energy, 2);
+  for (std::size_t j = 0; j < 2; ++j) {
+    // Simpson's rule, with the force over the step as a parabola in time.
+    EXPECT_NEAR(work[j], (now[j] + next[j]) / 2 * D[j] + (next[j] - before[j]) / 12 * B[j], 1e-15);
+    const double cosines = std::cos(two_pi * u[j]) + std::cos(two_pi * u[j] - D[j]);
+    EXPECT_NEAR(energy[j], (a2_next[j] - a2[j]) * (1 - cosines / 2), 1e-10);
   }
 }
 

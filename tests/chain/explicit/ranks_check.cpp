@@ -58,7 +58,7 @@ std::vector<double> measured(const Chain& chain) {
     row.insert(row.end(), values->begin(), values->end());
   const Totals t = totals(chain);
   for (const double sum : {t.charge, static_cast<double>(t.dislocations), t.kinetic, t.elastic, t.substrate, t.momentum,
-                           t.loading, t.supplied_rate, t.dissipated_rate, chain.load()})
+                           t.loading, chain.load()})
     row.push_back(sum);
   for (const Dislocation& d : dislocations(chain)) row.insert(row.end(), {d.x, static_cast<double>(d.sign)});
   const Average a = average(chain, 290, 80, chain.time());  // the window crosses the boundaries between ranks

@@ -10,39 +10,73 @@ namespace {
 
 constexpr std::size_t terms = PeriodicForce::terms;
 
-}  // namespace
+/// Takes the step to z - eps S at site j.
+template <bool steps>
+[[gnu::always_inline]] inline void take_step(const StepOfU& step, double z, double S, std::size_t j) {
+  if constexpr (steps) {
+    const double u = z - step.eps * S;
+    step.D[j] = turn * (u - step.u[j]);
+    step.u[j] = u;
+  }
+}
 
 // Eq. (3): u_tt - u_xx + sin u = F - f. In z = u + eps sin u it is a rule of five points, with S = sin u as f(z):
 //     next = (keep z - force S - before z_old) + spread (y_left + y_right),    y = z - coupled S
 // The second sum is add_neighbours, and the load and other friction follow.
-SLIPFRONT_CLONES void local_part(const LevelRule& rule, const double* now, const double* old, double* next, double* y,
-                                 std::size_t begin, std::size_t end) {
-  const LevelRule r = rule;  // a copy: the stores cannot change it
-  const std::size_t n = (end - begin) / lanes * lanes;
-  now += begin;
-  old += begin;
-  next += begin;
-  y += begin;
+template <bool steps>
+[[gnu::always_inline]] inline void local_loop(const LevelRule& r, const double* now, const double* old, double* next,
+                                              double* y, std::size_t n, const StepOfU& step) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < n; ++j) {
     const double z = now[j], S = r.f(z);
     y[j] = z - r.coupled * S;
     next[j] = (r.keep * z - r.force * S) - r.before * old[j];
+    take_step<steps>(step, z, S, j);
   }
 }
 
-namespace {
-
-/// S for a substrate of strength a2 (ContactForce).
-[[gnu::always_inline]] inline double force_of_contact(const ContactForce& f, double a2, double z) {
-  const double r = part_of_turn(z), square = r * r;
-  double p = f.coefficient(PeriodicForce::terms - 1, a2);
+/// S at lane j of a vector with these coefficients.
+[[gnu::always_inline]] inline double force_of_contact(const double* c, double z, std::size_t j) {
+  const double rest = part_of_turn(z), square = rest * rest;
+  double p = c[(terms - 1) * lanes + j];
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC unroll 16
 #endif
-  for (int k = PeriodicForce::terms - 2; k >= 0; --k) p = p * square + f.coefficient(k, a2);
-  return a2 * (r * p);
+  for (std::size_t k = terms - 1; k-- > 0;) p = p * square + c[k * lanes + j];
+  return rest * p;
 }
+
+template <bool steps>
+[[gnu::always_inline]] inline void local_loop_with_coefficients(const LevelRule& r, const double* coefficients,
+                                                                const double* now, const double* old, double* next,
+                                                                double* y, std::size_t begin, std::size_t end,
+                                                                const StepOfU& step) {
+  for (std::size_t first = begin; first < end; first += lanes) {
+    const double* const c = coefficients + terms * first;
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t j = 0; j < lanes; ++j) {
+      const double z = now[first + j], S = force_of_contact(c, z, j);
+      y[first + j] = z - r.coupled * S;
+      next[first + j] = (r.keep * z - r.force * S) - r.before * old[first + j];
+      take_step<steps>(step, z, S, first + j);
+    }
+  }
+}
+
+}  // namespace
+
+SLIPFRONT_CLONES void local_part(const LevelRule& rule, const double* now, const double* old, double* next, double* y,
+                                 std::size_t begin, std::size_t end, const StepOfU& step) {
+  const LevelRule r = rule;  // a copy: the stores cannot change it
+  const std::size_t n = (end - begin) / lanes * lanes;
+  if (step.u == nullptr)
+    local_loop<false>(r, now + begin, old + begin, next + begin, y + begin, n, {});
+  else
+    local_loop<true>(r, now + begin, old + begin, next + begin, y + begin, n,
+                     {step.eps, step.u + begin, step.D + begin});
+}
+
+namespace {
 
 /// u from z = u + strength sin(2 pi u) / 2 pi; strength < 0.1, so that two steps reach rounding.
 inline double displacement(const PeriodicForce& sine, double strength, double z) {
@@ -55,19 +89,6 @@ inline double displacement(const PeriodicForce& sine, double strength, double z)
 }
 
 }  // namespace
-
-SLIPFRONT_CLONES void local_part_with_contact(const LevelRule& rule, const ContactForce& force, const double* a2,
-                                              const double* now, const double* old, double* next, double* y,
-                                              std::size_t begin, std::size_t end) {
-  const LevelRule r = rule;
-  const ContactForce f = force;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = begin; j < end; ++j) {
-    const double z = now[j], S = force_of_contact(f, a2[j], z);
-    y[j] = z - r.coupled * S;
-    next[j] = (r.keep * z - r.force * S) - r.before * old[j];
-  }
-}
 
 SLIPFRONT_CLONES void contact_coefficients(const ContactForce& force, const double* a2, double* coefficients,
                                            std::size_t begin, std::size_t end) {
@@ -88,23 +109,12 @@ SLIPFRONT_CLONES void contact_coefficients(const ContactForce& force, const doub
 
 SLIPFRONT_CLONES void local_part_with_coefficients(const LevelRule& rule, const double* coefficients, const double* now,
                                                    const double* old, double* next, double* y, std::size_t begin,
-                                                   std::size_t end) {
+                                                   std::size_t end, const StepOfU& step) {
   const LevelRule r = rule;
-  for (std::size_t first = begin; first < end; first += lanes) {
-    const double* const c = coefficients + terms * first;
-    SLIPFRONT_INDEPENDENT
-    for (std::size_t j = 0; j < lanes; ++j) {
-      const double z = now[first + j], rest = part_of_turn(z), square = rest * rest;
-      double p = c[(terms - 1) * lanes + j];
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC unroll 16
-#endif
-      for (std::size_t k = terms - 1; k-- > 0;) p = p * square + c[k * lanes + j];
-      const double S = rest * p;
-      y[first + j] = z - r.coupled * S;
-      next[first + j] = (r.keep * z - r.force * S) - r.before * old[first + j];
-    }
-  }
+  if (step.u == nullptr)
+    local_loop_with_coefficients<false>(r, coefficients, now, old, next, y, begin, end, {});
+  else
+    local_loop_with_coefficients<true>(r, coefficients, now, old, next, y, begin, end, StepOfU(step));
 }
 
 SLIPFRONT_CLONES void displacements(const PeriodicForce& sine, double eps, const double* a2, const double* z, double* u,
@@ -118,18 +128,33 @@ SLIPFRONT_CLONES void displacements(const PeriodicForce& sine, double eps, const
   }
 }
 
-SLIPFRONT_CLONES void displacements(const PeriodicForce& force, double eps, const double* z, double* u,
-                                    std::size_t size) {
+SLIPFRONT_CLONES void displacements(const PeriodicForce& force, double eps, const double* coefficients, const double* z,
+                                    double* u, std::size_t begin, std::size_t end) {
   const PeriodicForce f = force;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) u[j] = z[j] - eps * f(z[j]);
+  if (coefficients == nullptr) {
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t j = begin; j < end; ++j) u[j] = z[j] - eps * f(z[j]);
+    return;
+  }
+  for (std::size_t first = begin; first < end; first += lanes) {
+    const double* const c = coefficients + terms * first;
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t j = 0; j < lanes; ++j) u[first + j] = z[first + j] - eps * force_of_contact(c, z[first + j], j);
+  }
 }
 
-SLIPFRONT_CLONES void displacements(const ContactForce& force, double eps, const double* a2, const double* z, double* u,
-                                    std::size_t size) {
-  const ContactForce f = force;
+SLIPFRONT_CLONES void take_steps(const double* u_next, double* u, double* D, std::size_t size) {
   SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) u[j] = z[j] - eps * force_of_contact(f, a2[j], z[j]);
+  for (std::size_t j = 0; j < size; ++j) {
+    D[j] = turn * (u_next[j] - u[j]);
+    u[j] = u_next[j];
+  }
+}
+
+SLIPFRONT_CLONES void second_differences(const double* before, const double* now, const double* next, double* B,
+                                         std::size_t size) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) B[j] = turn * ((next[j] - now[j]) - (now[j] - before[j]));
 }
 
 SLIPFRONT_CLONES void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end) {
@@ -147,6 +172,11 @@ SLIPFRONT_CLONES void add_drive(const DriveRule& rule, const double* F_before, c
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j)
     next[j] += r.next * F_next[j] + r.before * F_before[j] + r.now * F_now[j] + r.neighbour * (left[j] + right[j]);
+}
+
+SLIPFRONT_CLONES void add_steady_drive(const double* drive, double* next, std::size_t size) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) next[j] += drive[j];
 }
 
 SLIPFRONT_CLONES void shorten_steps(double most, const double* now, double* next, std::size_t size) {
@@ -194,93 +224,60 @@ SLIPFRONT_CLONES void velocities(double per_step, const double* now, const doubl
   for (std::size_t j = 0; j < size; ++j) velocity[j] = (next[j] - now[j]) * per_step;
 }
 
-SLIPFRONT_CLONES void take_steps(const ContactForce& force, double eps, const double* a2_next, const double* before,
-                                 const double* now, const double* next, double* u, double* D, double* B,
-                                 std::size_t size) {
-  const ContactForce f = force;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) {
-    const double z = next[j], u_next = z - eps * force_of_contact(f, a2_next[j], z);
-    D[j] = turn * (u_next - u[j]);
-    B[j] = turn * ((z - now[j]) - (now[j] - before[j]));
-    u[j] = u_next;
-  }
-}
-
-SLIPFRONT_CLONES void take_steps(const PeriodicForce& force, double eps, const double* before, const double* now,
-                                 const double* next, double* u, double* D, double* B, std::size_t size) {
-  const PeriodicForce f = force;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) {
-    const double z = next[j], u_next = z - eps * f(z);
-    D[j] = turn * (u_next - u[j]);
-    B[j] = turn * ((z - now[j]) - (now[j] - before[j]));
-    u[j] = u_next;
-  }
-}
-
 namespace {
 
-inline double total(const double (&part)[lanes]) {
-  return ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
+/// term(j) of each site, in the sums of the blocks.
+template <class Term>
+[[gnu::always_inline]] inline void add_terms(const BlockSums& to, const Term& term) {
+  for (std::size_t i = 0; i < to.blocks; ++i) {
+    double* const sums = to.sums + i * to.stride;
+    double part[lanes];
+    for (std::size_t k = 0; k < lanes; ++k) part[k] = sums[k];
+    const std::size_t begin = to.begins[i] - to.begins[0], end = to.begins[i + 1] - to.begins[0];
+    const std::size_t whole = begin + (end - begin) / lanes * lanes;
+    for (std::size_t j = begin; j < whole; j += lanes)
+      for (std::size_t k = 0; k < lanes; ++k) part[k] += term(j + k);
+    for (std::size_t k = 0; k < end - whole; ++k) part[k] += term(whole + k);
+    for (std::size_t k = 0; k < lanes; ++k) sums[k] = part[k];
+  }
 }
 
 }  // namespace
 
-SLIPFRONT_CLONES double work_of_force(const double* F_before, const double* F_now, const double* F_next,
-                                      const double* D, const double* B, std::size_t size) {
-  double part[lanes] = {};
-  const std::size_t whole = size / lanes * lanes;
-  const auto work = [=](std::size_t j) {
-    return (F_now[j] + F_next[j]) * 0.5 * D[j] + (F_next[j] - F_before[j]) * B[j] * (1.0 / 12);
-  };
-  for (std::size_t j = 0; j < whole; j += lanes)
-    for (std::size_t k = 0; k < lanes; ++k) part[k] += work(j + k);
-  for (std::size_t k = 0; k < size - whole; ++k) part[k] += work(whole + k);
-  return total(part);
+SLIPFRONT_CLONES void add_products(const BlockSums& to, double factor, const double* a, const double* b) {
+  add_terms(to, [=](std::size_t j) { return factor * a[j] * b[j]; });
 }
 
-SLIPFRONT_CLONES double sum_of_products(const double* a, const double* b, std::size_t size) {
-  double part[lanes] = {};
-  const std::size_t whole = size / lanes * lanes;
-  for (std::size_t j = 0; j < whole; j += lanes)
-    for (std::size_t k = 0; k < lanes; ++k) part[k] += a[j + k] * b[j + k];
-  for (std::size_t k = 0; k < size - whole; ++k) part[k] += a[whole + k] * b[whole + k];
-  return total(part);
+SLIPFRONT_CLONES void add_values(const BlockSums& to, double factor, const double* a) {
+  add_terms(to, [=](std::size_t j) { return factor * a[j]; });
 }
 
-SLIPFRONT_CLONES double work_of_viscous_friction(const double* D, const double* B, std::size_t size) {
-  double part[lanes] = {};
-  const std::size_t whole = size / lanes * lanes;
-  for (std::size_t j = 0; j < whole; j += lanes)
-    for (std::size_t k = 0; k < lanes; ++k) part[k] += D[j + k] * D[j + k] + B[j + k] * B[j + k] * (1.0 / 12);
-  for (std::size_t k = 0; k < size - whole; ++k)
-    part[k] += D[whole + k] * D[whole + k] + B[whole + k] * B[whole + k] * (1.0 / 12);
-  return total(part);
+SLIPFRONT_CLONES void add_squares(const BlockSums& to, double factor, const double* D, const double* D_before) {
+  add_terms(to, [=](std::size_t j) {
+    const double B = D[j] - D_before[j];
+    return factor * (D[j] * D[j] + B * B * (1.0 / 12));
+  });
 }
 
-SLIPFRONT_CLONES double energy_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next,
-                                           const double* u, const double* D, std::size_t size) {
+SLIPFRONT_CLONES void add_absolutes(const BlockSums& to, double factor, const double* a) {
+  add_terms(to, [=](std::size_t j) { return factor * std::fabs(a[j]); });
+}
+
+SLIPFRONT_CLONES void works_of_force(const double* F_before, const double* F_now, const double* F_next, const double* D,
+                                     const double* B, double* work, std::size_t size) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j)
+    work[j] = (F_now[j] + F_next[j]) * 0.5 * D[j] + (F_next[j] - F_before[j]) * B[j] * (1.0 / 12);
+}
+
+SLIPFRONT_CLONES void energies_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next,
+                                           const double* u, const double* D, double* energy, std::size_t size) {
   const PeriodicForce f = sine;
-  double part[lanes] = {};
-  const std::size_t whole = size / lanes * lanes;
-  const auto energy = [=](std::size_t j) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) {
     const double cosines = f(u[j] + 0.25) + f(u[j] - D[j] * (1 / turn) + 0.25);  // over 2 pi
-    return (a2_next[j] - a2[j]) * (1 - turn / 2 * cosines);
-  };
-  for (std::size_t j = 0; j < whole; j += lanes)
-    for (std::size_t k = 0; k < lanes; ++k) part[k] += energy(j + k);
-  for (std::size_t k = 0; k < size - whole; ++k) part[k] += energy(whole + k);
-  return total(part);
-}
-
-SLIPFRONT_CLONES double work_of_coulomb_friction(const double* D, std::size_t size) {
-  double part[lanes] = {};
-  const std::size_t whole = size / lanes * lanes;
-  for (std::size_t j = 0; j < whole; j += lanes)
-    for (std::size_t k = 0; k < lanes; ++k) part[k] += std::fabs(D[j + k]);
-  for (std::size_t k = 0; k < size - whole; ++k) part[k] += std::fabs(D[whole + k]);
-  return total(part);
+    energy[j] = (a2_next[j] - a2[j]) * (1 - turn / 2 * cosines);
+  }
 }
 
 SLIPFRONT_CLONES bool bounded(const double* z, std::size_t size) {

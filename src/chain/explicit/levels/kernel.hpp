@@ -19,25 +19,35 @@ struct LevelRule {
 
 inline constexpr std::size_t lanes = 8;  ///< ranges are multiples of this; arrays are aligned to this number of doubles
 
+/// u at the level that the first loop starts from, if the step since the level before is wanted: D gets the step in
+/// radians, and u (turns) its value at this level.
+struct StepOfU {
+  double eps = 0;
+  double *u = nullptr, *D = nullptr;
+};
+
 /// The first loop, over [begin, end). `old` is the level before, and may be the same array as `next`.
 void local_part(const LevelRule& rule, const double* now, const double* old, double* next, double* y, std::size_t begin,
-                std::size_t end);
-/// The first loop for a substrate of strength a(x)^2. It ignores rule.f.
-void local_part_with_contact(const LevelRule& rule, const ContactForce& f, const double* a2, const double* now,
-                             const double* old, double* next, double* y, std::size_t begin, std::size_t end);
-/// The coefficients of the force on sites [begin, end), for the loop below. A vector of sites has its first
+                std::size_t end, const StepOfU& step = {});
+/// The coefficients of the force on sites [begin, end), for the loops below. A vector of sites has its first
 /// coefficients next to each other, then its second ones, and so on.
 void contact_coefficients(const ContactForce& f, const double* a2, double* coefficients, std::size_t begin,
                           std::size_t end);
-/// The first loop for a substrate of strength a(x)^2 that does not change. It costs hardly more than a constant a.
+/// The first loop for a substrate of strength a(x)^2. It ignores rule.f, and costs hardly more than a constant a.
 void local_part_with_coefficients(const LevelRule& rule, const double* coefficients, const double* now,
-                                  const double* old, double* next, double* y, std::size_t begin, std::size_t end);
+                                  const double* old, double* next, double* y, std::size_t begin, std::size_t end,
+                                  const StepOfU& step = {});
 /// Computes u and S from z, with Newton's method. `a2` is null if it is 1 everywhere.
 void displacements(const PeriodicForce& sine, double eps, const double* a2, const double* z, double* u, double* S,
                    std::size_t size);
-/// Computes only u = z - eps S, with the polynomial of the force, for a substrate of strength 1 or a2.
-void displacements(const PeriodicForce& f, double eps, const double* z, double* u, std::size_t size);
-void displacements(const ContactForce& f, double eps, const double* a2, const double* z, double* u, std::size_t size);
+/// Computes only u = z - eps S on sites [begin, end), with the polynomial of the force; `coefficients` as above, or
+/// null if a is 1 everywhere.
+void displacements(const PeriodicForce& f, double eps, const double* coefficients, const double* z, double* u,
+                   std::size_t begin, std::size_t end);
+/// Computes the step D from u to u_next, in radians, and sets u to u_next.
+void take_steps(const double* u_next, double* u, double* D, std::size_t size);
+/// Computes the second difference of z over levels, in radians.
+void second_differences(const double* before, const double* now, const double* next, double* B, std::size_t size);
 
 /// The second loop. It reads y from begin - 1 to end.
 void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end);
@@ -48,6 +58,8 @@ struct DriveRule {
 };
 void add_drive(const DriveRule& rule, const double* F_before, const double* F_now, const double* F_next, double* next,
                std::size_t size);
+/// Adds `drive`, which is that effect of a force that does not change.
+void add_steady_drive(const double* drive, double* next, std::size_t size);
 /// Applies Coulomb friction: shortens each step from `now` to `next` by `most`, but not below zero. Friction can stop a
 /// site, but not reverse its motion. NaN stays NaN.
 void shorten_steps(double most, const double* now, double* next, std::size_t size);
@@ -62,25 +74,28 @@ void take_speeds(double per_step, double per_weight, const double* from, const d
                  double* next, double* force, std::size_t size);
 /// Sets `velocity` to (next - now) times `per_step`.
 void velocities(double per_step, const double* now, const double* next, double* velocity, std::size_t size);
-/// The sum of products, in an order that depends only on `size`.
-double sum_of_products(const double* a, const double* b, std::size_t size);
-
-/// Computes D = u_next - u and the second difference B of z over levels, both in radians, and sets u to its value
-/// u_next = z - eps S at the next level.
-void take_steps(const ContactForce& f, double eps, const double* a2_next, const double* before, const double* now,
-                const double* next, double* u, double* D, double* B, std::size_t size);
-void take_steps(const PeriodicForce& f, double eps, const double* before, const double* now, const double* next,
-                double* u, double* D, double* B, std::size_t size);
-/// Sums over sites of the work in a step (WorkMeter), to be multiplied by the spacing and the strength of friction.
-/// There is one function for a force, one for viscous and one for Coulomb friction. The order depends only on `size`.
-double work_of_force(const double* F_before, const double* F_now, const double* F_next, const double* D,
-                     const double* B, std::size_t size);
-double work_of_viscous_friction(const double* D, const double* B, std::size_t size);
-/// Energy that contacts give to the substrate when a^2 changes from a2 to a2_next. The step D (radians) ends at `u`
-/// (turns).
-double energy_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next, const double* u,
-                          const double* D, std::size_t size);
-double work_of_coulomb_friction(const double* D, std::size_t size);
+/// Consecutive blocks of sites: block i has those from begins[i] to begins[i + 1], counted from begins[0] on. Its sum
+/// is that of `lanes` numbers, one for each place in a vector, from sums + i stride on.
+struct BlockSums {
+  const std::size_t* begins;
+  std::size_t blocks;
+  double* sums;
+  std::size_t stride;
+};
+/// Add `factor` times a, |a| or the products of a and b to the sums of their blocks. The order depends only on the
+/// blocks.
+void add_values(const BlockSums& to, double factor, const double* a);
+void add_products(const BlockSums& to, double factor, const double* a, const double* b);
+/// Adds `factor` times D^2 + (D - D_before)^2 / 12 of each site (WorkMeter).
+void add_squares(const BlockSums& to, double factor, const double* D, const double* D_before);
+void add_absolutes(const BlockSums& to, double factor, const double* a);
+/// The work of a force F in a step of each site (WorkMeter).
+void works_of_force(const double* F_before, const double* F_now, const double* F_next, const double* D, const double* B,
+                    double* work, std::size_t size);
+/// Energy that contacts give to the substrate at each site when a^2 changes from a2 to a2_next. The step D (radians)
+/// ends at `u` (turns).
+void energies_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next, const double* u,
+                          const double* D, double* energy, std::size_t size);
 
 /// Whether every |z| is small enough for the range reduction. It is false if any z is NaN.
 bool bounded(const double* z, std::size_t size);

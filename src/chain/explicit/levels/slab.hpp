@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chain/explicit/levels/absorbing_end.hpp"
-#include "chain/explicit/levels/scheme.hpp"
+#include "chain/explicit/levels/kernel.hpp"
 
 namespace slipfront::chain {
 
@@ -30,6 +30,8 @@ inline constexpr std::size_t halo = 32;
 
 /// The conditions at the two ends of consecutive sites, level by level.
 enum class EndCondition { joined, free, fixed, absorbing, seam };
+/// Whether the chain has no sites beyond.
+inline bool is_end(EndCondition side) { return side != EndCondition::joined && side != EndCondition::seam; }
 struct EndConditions {
   EndCondition left = EndCondition::joined,
                right = EndCondition::joined;  ///< joined: a halo; seam: a halo from the other end of a ring
@@ -50,44 +52,19 @@ class Slab {
 
   std::size_t begin() const { return begin_; }
   std::size_t size() const { return size_; }
-  double* now() { return levels_[current_].data() + margin; }
-  double* old() { return levels_[1 - current_].data() + margin; }
-  const double* now() const { return levels_[current_].data() + margin; }
-  const double* old() const { return levels_[1 - current_].data() + margin; }
+  double* now() { return now_.data() + margin; }
+  double* old() { return old_.data() + margin; }
+  const double* now() const { return now_.data() + margin; }
+  const double* old() const { return old_.data() + margin; }
   const EndConditions& ends() const { return ends_; }
-  void swap() { current_ = 1 - current_; }
-
-  /// `count` <= halo levels, tile by tile in cache, in place. Bits do not depend on `tile` (a multiple of lanes). `a2`
-  /// is a^2 from site `begin` on, and of a halo and a vector on either side; null if a is 1 everywhere.
-  void advance(const Scheme& scheme, const double* a2, std::size_t count, std::size_t tile);
 
   Outflow outflow;  ///< through its ends
 
  private:
   static constexpr std::size_t margin = 2 * halo;
-  /// Arrays for one tile, and the sites left of it at the levels from which its computation starts.
-  struct Tile {
-    Tile(std::size_t sites, bool contact)
-        : size(sites),
-          now(sites),
-          next(sites),
-          y(sites),
-          left_now(halo),
-          left_old(halo),
-          coefficients(contact ? PeriodicForce::terms * sites : 0) {}
-    std::size_t size;
-    Aligned now, next, y, left_now, left_old;
-    Aligned coefficients;  ///< contact_coefficients
-  };
-  void load(std::size_t from, std::size_t width);
-  void advance_tile(const LevelRule& rule, bool contact, std::size_t count, std::size_t tile, std::size_t from,
-                    std::size_t width);
-
   std::size_t begin_, size_;
   EndConditions ends_;
-  Aligned levels_[2];
-  std::size_t current_ = 0;
-  Tile tile_{0, false};
+  Aligned now_, old_;
 };
 
 /// The results of local_part at the ends of the chain, or on both ends of a seam, before neighbours are added.
