@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "chain/measure/average.hpp"
@@ -91,6 +92,45 @@ double driving_force(const ScaledProblem& s, double end) {
   return by_stress + by_forcing;
 }
 
+/// A chain at one time, of which windows are parts of one. A snapshot asks for some hundred windows, and a short chain
+/// would compute the same sites for each.
+class SeenOnce final : public Sites {
+ public:
+  SeenOnce(const Sites& chain, double time)
+      : Sites(chain.problem(), &chain.ranks()),
+        chain_(chain),
+        time_(time),
+        all_(chain.window(0, chain.problem().grid.sites, time)) {}
+
+  static bool is_worth(const Sites& chain) {
+    constexpr std::size_t few_sites = 4096;
+    return chain.ranks().size() == 1 && chain.problem().grid.sites <= few_sites;
+  }
+
+  double time() const override { return time_; }
+  std::optional<double> constant_step() const override { return chain_.constant_step(); }
+  void exchange() const override {}
+  Window own_window(std::size_t begin, std::size_t end, double) const override {
+    const auto part = [&](const std::vector<double>& all) {
+      return std::vector<double>(all.data() + begin, all.data() + end);
+    };
+    return {begin,
+            part(all_.x),
+            part(all_.u),
+            part(all_.velocity),
+            part(all_.stress),
+            part(all_.contact_squared),
+            part(all_.effective_stress)};
+  }
+  SpringEnergy spring_energy() const override { return chain_.spring_energy(); }
+  double load() const override { return chain_.load(); }
+
+ private:
+  const Sites& chain_;
+  double time_;
+  Window all_;
+};
+
 }  // namespace
 
 RunObserver::RunObserver(const ScaledProblem& scaled, const output::Schedule& schedule, const Chain& chain)
@@ -157,8 +197,11 @@ bool RunObserver::sees_origin() const { return !std::isnan(first_u_at_origin_); 
 Snapshot RunObserver::snapshot(double time) const {
   Snapshot s{};
   s.time = time;
-  const std::vector<double> velocities = add_profile(s, time);
-  add_origin(s, time);
+  std::optional<SeenOnce> seen;
+  if (SeenOnce::is_worth(chain_)) seen.emplace(chain_, scaled_.scale * time);
+  const Sites& sites = seen ? static_cast<const Sites&>(*seen) : chain_;
+  const std::vector<double> velocities = add_profile(sites, s, time);
+  add_origin(sites, s, time);
   const Totals now = totals(chain_);
   if (static_cast<double>(now.dislocations) >
       most_dislocations_a_site * static_cast<double>(chain_.problem().grid.sites))
@@ -177,17 +220,17 @@ double RunObserver::least_width(std::size_t i) const {
 }
 
 /// Adds averages over the output cells, their peak, and the energy of phonons.
-std::vector<double> RunObserver::add_profile(Snapshot& s, double time) const {
+std::vector<double> RunObserver::add_profile(const Sites& sites, Snapshot& s, double time) const {
   const double c = scaled_.scale;
   std::vector<double> velocities;
   std::size_t peak = 0;
   for (std::size_t i = 0; i < first_u_.size(); ++i) {
-    const double u = average(chain_, c * centre_of_cell(i), c * width_of_cell(i), c * time).u;
+    const double u = average(sites, c * centre_of_cell(i), c * width_of_cell(i), c * time).u;
     const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i], middle = middle_of_cell(i);
     const double least = least_width(i);
-    BestAverage best{smooth_average(chain_, c * middle, c * least, c * time), c * least, none, none};
+    BestAverage best{smooth_average(sites, c * middle, c * least, c * time), c * least, none, none};
     velocities.push_back(best.average.velocity);
-    if (widest_window_ > least) best = best_average(chain_, c * middle, c * least, c * widest_window_, c * time);
+    if (widest_window_ > least) best = best_average(sites, c * middle, c * least, c * widest_window_, c * time);
     const SmoothAverage& a = best.average;
     const double wide = best.width / c;
     s.profile.k.push_back(a.stress);
@@ -208,9 +251,9 @@ std::vector<double> RunObserver::add_profile(Snapshot& s, double time) const {
   return velocities;
 }
 
-BestAverage RunObserver::average_at_origin(double time) const {
+BestAverage RunObserver::average_at_origin(const Sites& sites, double time) const {
   const double c = scaled_.scale;
-  return best_average(chain_, 0, c * smooth_window_, c * widest_window_, c * time);
+  return best_average(sites, 0, c * smooth_window_, c * widest_window_, c * time);
 }
 
 /// Adds the errors that windows at one moment do not show. Dislocations pass x = 0 one by one, and where the stress
@@ -231,7 +274,7 @@ void RunObserver::widen_errors(Averages& averages, double time) const {
 Averages RunObserver::averages(double time, double peak) const {
   Averages averages{.width = smooth_window_, .velocity_error = none, .stress_error = none, .peak_error = none};
   if (sees_origin()) {
-    const BestAverage origin = average_at_origin(time);
+    const BestAverage origin = average_at_origin(chain_, time);
     averages = {origin.width / scaled_.scale, origin.velocity_error, origin.stress_error, none};
     widen_errors(averages, time);
   }
@@ -243,14 +286,14 @@ Averages RunObserver::averages(double time, double peak) const {
   return averages;
 }
 
-void RunObserver::add_origin(Snapshot& s, double time) const {
+void RunObserver::add_origin(const Sites& sites, Snapshot& s, double time) const {
   s.slip_velocity_at_origin = s.stress_at_origin = s.slip_at_origin = none;
   if (!sees_origin()) return;
   const double c = scaled_.scale;
-  const SmoothAverage origin = average_at_origin(time).average;
+  const SmoothAverage origin = average_at_origin(sites, time).average;
   s.slip_velocity_at_origin = origin.velocity;
   s.stress_at_origin = origin.stress;
-  s.slip_at_origin = (average(chain_, 0, c * window_, c * time).u - first_u_at_origin_) / c;
+  s.slip_at_origin = (average(sites, 0, c * window_, c * time).u - first_u_at_origin_) / c;
 }
 
 void RunObserver::add_energy(Snapshot& s, const Totals& now) const {

@@ -59,11 +59,11 @@ class RunObserver {
   double centre_of_cell(std::size_t i) const;  ///< centre of the window of its slip, which must not leave the chain
   /// The widths of the average around the middle of cell i.
   double least_width(std::size_t i) const;
-  BestAverage average_at_origin(double time) const;
+  BestAverage average_at_origin(const Sites& sites, double time) const;
   void widen_errors(Averages& averages, double time) const;
   /// Returns the slip velocities of windows of the least width, in which observers look for fronts.
-  std::vector<double> add_profile(output::Snapshot& snapshot, double time) const;
-  void add_origin(output::Snapshot& snapshot, double time) const;
+  std::vector<double> add_profile(const Sites& sites, output::Snapshot& snapshot, double time) const;
+  void add_origin(const Sites& sites, output::Snapshot& snapshot, double time) const;
   void add_energy(output::Snapshot& snapshot, const Totals& now) const;
   void add_sites(output::Snapshot& snapshot, double time) const;
   void find_fronts(output::Snapshot& snapshot, const std::vector<double>& velocities) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "foundation/math/lagrange.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
@@ -11,13 +12,10 @@ namespace slipfront::chain {
 double interpolated(const std::vector<double>& v, double r) {
   const long n = static_cast<long>(v.size()), points = std::min<long>(6, n);
   const long first = std::clamp<long>(static_cast<long>(std::floor(r)) - points / 2 + 1, 0, n - points);
+  const auto weights = equidistant_weights(static_cast<std::size_t>(points), r - static_cast<double>(first));
   double sum = 0;
-  for (long a = 0; a < points; ++a) {
-    double weight = 1;
-    for (long b = 0; b < points; ++b)
-      if (b != a) weight *= (r - static_cast<double>(first + b)) / static_cast<double>(a - b);
-    sum += weight * v[static_cast<std::size_t>(first + a)];
-  }
+  for (std::size_t j = 0; j < static_cast<std::size_t>(points); ++j)
+    sum += weights[j] * v[static_cast<std::size_t>(first) + j];
   return sum;
 }
 

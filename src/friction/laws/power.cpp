@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <numbers>
 
+#include "foundation/math/lagrange.hpp"
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/vector_code.hpp"
 #include "friction/train_means/tabulated_average.hpp"
@@ -72,14 +73,9 @@ class PowerRate final : public RelaxationRate {
     const double begin = std::fmax(std::floor(position) - 2, 0.0), s = position - begin;
     const auto first = static_cast<std::size_t>(begin);
     constexpr std::size_t points = 6;
-    // One over the product of each one's distances from the others.
-    constexpr double weight[points] = {-1.0 / 120, 1.0 / 24, -1.0 / 12, 1.0 / 12, -1.0 / 24, 1.0 / 120};
-    double from_left[points] = {1}, from_right = 1, sum = 0;
-    for (std::size_t j = 1; j < points; ++j) from_left[j] = from_left[j - 1] * (s - static_cast<double>(j - 1));
-    for (std::size_t j = points; j-- > 0;) {
-      sum += from_left[j] * from_right * weight[j] * node(first + j);
-      from_right *= s - static_cast<double>(j);
-    }
+    const auto weights = equidistant_weights(points, s);
+    double sum = 0;
+    for (std::size_t j = 0; j < points; ++j) sum += weights[j] * node(first + j);
     return sum;
   }
 
