@@ -16,6 +16,27 @@ struct Displaced {
   std::vector<double> old, now, next;
 };
 
+/// Computes the next level, but for the two sites at either side.
+void compute_next(const Forces& forces, Displaced& d) {
+  const std::size_t room = d.now.size();
+  std::vector<double> y(room), coefficients(forces.has_contact() ? PeriodicForce::terms * room : 0);
+  LevelSites sites{.offset = d.low - static_cast<long>(lanes),
+                   .left = lanes + 2,  // two sites in, neighbours are there
+                   .right = lanes + d.wide - 2,
+                   .before = d.old.data(),
+                   .now = d.now.data(),
+                   .next = d.next.data(),
+                   .y = y.data()};
+  if (!coefficients.empty()) {
+    forces.contact_coefficients(sites.offset, lanes, lanes + (d.wide + lanes - 1) / lanes * lanes, coefficients.data());
+    sites.coefficients = coefficients.data();
+  }
+  if (forces.variables() > 0) sites.states = {forces.state_of(sites.offset), forces.variables()};
+  Outflow unused;
+  forces.begin_level({}, sites, unused);
+  forces.add_load_and_friction({}, sites);
+}
+
 /// Both levels of sites [from, to) and five on either side, or more where an absorbing end needs its neighbours; and
 /// the next level, which is computed only for the window.
 Displaced displaced(const Share& share, std::size_t from, std::size_t to) {
@@ -38,23 +59,7 @@ Displaced displaced(const Share& share, std::size_t from, std::size_t to) {
     d.now[j + lanes] = now;
     d.old[j + lanes] = old;
   }
-  const Forces& forces = share.forces();
-  std::vector<double> y(room), coefficients(forces.has_contact() ? PeriodicForce::terms * room : 0);
-  LevelSites sites{.offset = d.low - static_cast<long>(lanes),
-                   .left = lanes + 2,  // two sites in, neighbours are there
-                   .right = lanes + wide - 2,
-                   .before = d.old.data(),
-                   .now = d.now.data(),
-                   .next = d.next.data(),
-                   .y = y.data()};
-  if (!coefficients.empty()) {
-    forces.contact_coefficients(sites.offset, lanes, lanes + (wide + lanes - 1) / lanes * lanes, coefficients.data());
-    sites.coefficients = coefficients.data();
-  }
-  if (forces.variables() > 0) sites.states = {forces.state_of(sites.offset), forces.variables()};
-  Outflow unused;
-  forces.begin_level({}, sites, unused);
-  forces.add_load_and_friction({}, sites);
+  compute_next(share.forces(), d);
   const auto at = [&](long j) { return static_cast<std::size_t>(j - d.low) + lanes; };
   if (absorbs_left) d.next[at(0)] = ends.absorbing_left.step(&d.now[at(0)], &d.next[at(0)]).next;
   if (absorbs_right) d.next[at(n - 1)] = ends.absorbing_right.step(&d.now[at(n - 1)], &d.next[at(n - 1)]).next;
