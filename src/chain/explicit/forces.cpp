@@ -27,7 +27,8 @@ std::vector<double> a2_of(const Problem& p, long first, long last) {
 
 }  // namespace
 
-Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::size_t begin, std::size_t end)
+Forces::Forces(const Problem& problem, const Scheme& scheme, const Ranks& ranks, long level, std::size_t begin,
+               std::size_t end)
     : problem_(problem),
       scheme_(scheme),
       sine_(substrate_force(0)),
@@ -42,19 +43,22 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
       contacts_(problem_, first_, a2_) {
   for (long j = first_; variables_ > 0 && j < last_; ++j)
     problem_.friction.start(problem_.grid.x(folded(problem_, j)), 0, {state_of(j), variables_});
-  if (problem_.forcing) {
-    F_now_.resize(at(last_));
-    evaluate_forcing(problem_.steady_forcing ? 0 : level_, F_now_);
-    if (problem_.steady_forcing) {
-      steady_drive_.resize(at(last_));
-      const double* F = F_now_.data() + 1;
-      add_drive(drive_rule(), F, F, F, steady_drive_.data() + 1, at(last_) - 2);
-      return;
-    }
-    F_before_ = F_next_ = F_now_;
-    evaluate_forcing(level_ + 1, F_next_);
-    evaluate_forcing(level_ - 1, F_before_);
+  if (!problem_.forcing) return;
+  F_now_.resize(at(last_));
+  std::vector<double> x;
+  for (long j = first_; j < last_; ++j) x.push_back(problem_.grid.x(folded(problem_, j)));
+  if (problem_.steady_forcing) {
+    for (std::size_t j = 0; j < x.size(); ++j) F_now_[j] = problem_.forcing(x[j], 0);
+    steady_drive_.resize(at(last_));
+    const double* F = F_now_.data() + 1;
+    add_drive(drive_rule(), F, F, F, steady_drive_.data() + 1, at(last_) - 2);
+    return;
   }
+  forcing_ = ForcingInTime(problem_.forcing, std::move(x), dt_);
+  F_before_ = F_next_ = F_now_;
+  evaluate_forcing(level_ - 1, ranks, F_before_);
+  evaluate_forcing(level_, ranks, F_now_);
+  evaluate_forcing(level_ + 1, ranks, F_next_);
 }
 
 DriveRule Forces::drive_rule() const {
@@ -63,17 +67,17 @@ DriveRule Forces::drive_rule() const {
           strength * scheme_.share_neighbour};
 }
 
-void Forces::evaluate_forcing(long level, std::vector<double>& F) const {
-  if (level < 0) {  // F need not be defined before the start, so we extrapolate
-    std::vector<double> zero = F, one = F, two = F;
-    evaluate_forcing(0, zero);
-    evaluate_forcing(1, one);
-    evaluate_forcing(2, two);
-    for (std::size_t j = 0; j < F.size(); ++j) F[j] = 3 * zero[j] - 3 * one[j] + two[j];
+void Forces::evaluate_forcing(long level, const Ranks& ranks, std::vector<double>& F) {
+  if (level >= 0) {
+    forcing_.at(level, ranks, F);
     return;
   }
-  const double t = static_cast<double>(level) * dt_;
-  for (long j = first_; j < last_; ++j) F[at(j)] = problem_.forcing(problem_.grid.x(folded(problem_, j)), t);
+  // F need not be defined before the start, so we extrapolate.
+  std::vector<double> zero = F, one = F, two = F;
+  forcing_.at(0, ranks, zero);
+  forcing_.at(1, ranks, one);
+  forcing_.at(2, ranks, two);
+  for (std::size_t j = 0; j < F.size(); ++j) F[j] = 3 * zero[j] - 3 * one[j] + two[j];
 }
 
 void Forces::age(long first, std::size_t size, const double* now, const double* next, double* states) {
@@ -125,13 +129,13 @@ void Forces::exchange_all(const Ranks& ranks) {
   if (contacts_.acts()) contacts_.exchange_all(ranks);
 }
 
-void Forces::proceed() {
+void Forces::proceed(const Ranks& ranks) {
   ++level_;
   if (contacts_.acts()) contacts_.proceed();
   if (steady()) return;
   F_before_.swap(F_now_);
   F_now_.swap(F_next_);
-  evaluate_forcing(level_ + 1, F_next_);
+  evaluate_forcing(level_ + 1, ranks, F_next_);
 }
 
 void Forces::contact_coefficients(long offset, std::size_t begin, std::size_t end, double* coefficients) const {

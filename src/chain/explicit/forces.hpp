@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "chain/explicit/contact_field.hpp"
+#include "chain/explicit/forcing_in_time.hpp"
 #include "chain/explicit/levels/scheme.hpp"
 #include "chain/explicit/levels/slab.hpp"
 
@@ -26,7 +27,8 @@ class Forces {
  public:
   /// The forces on sites [begin, end) and on some more on either side. These continue around a periodic chain, and are
   /// reflected at the ends of other chains.
-  Forces(const Problem& problem, const Scheme& scheme, long level, std::size_t begin, std::size_t end);
+  Forces(const Problem& problem, const Scheme& scheme, const Ranks& ranks, long level, std::size_t begin,
+         std::size_t end);
 
   /// Whether one level must be complete, on all sites, before the next one begins.
   bool level_by_level() const { return !steady() || contacts_.acts(); }
@@ -72,8 +74,8 @@ class Forces {
   void exchange(const Ranks& ranks);
   /// (all) Gets everything of these sites, which windows need.
   void exchange_all(const Ranks& ranks);
-  /// Moves to the next level.
-  void proceed();
+  /// (all) Moves to the next level.
+  void proceed(const Ranks& ranks);
   /// The state variables of sites from j on, `variables` for each.
   double* state_of(long j) { return state_.data() + variables_ * at(j); }
   const double* state_of(long j) const { return state_.data() + variables_ * at(j); }
@@ -101,7 +103,7 @@ class Forces {
   }
   std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
   DriveRule drive_rule() const;
-  void evaluate_forcing(long level, std::vector<double>& F) const;
+  void evaluate_forcing(long level, const Ranks& ranks, std::vector<double>& F);
   void add_friction(const LevelSites& sites, std::size_t begin, std::size_t end) const;
   void age_contacts(long first, std::size_t size, const double* velocity, double* states);
 
@@ -116,6 +118,7 @@ class Forces {
   std::vector<double> state_;  ///< their values at each site
   std::vector<double> a2_;     ///< a^2; at t = 0 if it changes
   ContactField contacts_;
+  ForcingInTime forcing_;
   std::vector<double> F_before_, F_now_, F_next_;  ///< only F_now_ is filled if F does not depend on t
   std::vector<double> steady_drive_;               ///< and then its effect on each level
 };

@@ -65,7 +65,7 @@ Share::Share(const Problem& p, const Execution& e, const Ranks& ranks, long at)
       end_block_(blocks_.first_of(ranks.rank() + 1, ranks.size())),
       begin_(blocks_.begin(first_block_)),
       end_(blocks_.begin(end_block_)),
-      forces_(p, scheme_, at, begin_, end_),
+      forces_(p, scheme_, ranks, at, begin_, end_),
       meter_(problem_, scheme_, blocks_, first_block_, end_block_),
       level_(at) {
   check_execution();
@@ -171,7 +171,7 @@ void Share::advance(std::size_t count) {
   });
   for_slabs(count, [this, count](std::size_t i) { sweeps_[i].advance(count); });
   level_ += static_cast<long>(count);
-  if (forces_.level_by_level()) forces_.proceed();
+  if (forces_.level_by_level()) forces_.proceed(ranks_);
 }
 
 void Share::check_numbers() const {

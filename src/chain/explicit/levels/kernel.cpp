@@ -280,6 +280,16 @@ SLIPFRONT_CLONES void energies_of_contacts(const PeriodicForce& sine, const doub
   }
 }
 
+SLIPFRONT_CLONES void weighted_sum(const std::array<double, 8>& weights, const std::array<const double*, 8>& values,
+                                   double* sum, std::size_t size) {
+  const auto w = weights;
+  const auto v = values;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j)
+    sum[j] = ((w[0] * v[0][j] + w[1] * v[1][j]) + (w[2] * v[2][j] + w[3] * v[3][j])) +
+             ((w[4] * v[4][j] + w[5] * v[5][j]) + (w[6] * v[6][j] + w[7] * v[7][j]));
+}
+
 SLIPFRONT_CLONES bool bounded(const double* z, std::size_t size) {
   std::size_t bad = 0;
   for (std::size_t j = 0; j < size; ++j) bad += std::fabs(z[j]) < 2251799813685248.0 ? 0u : 1u;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "chain/explicit/levels/contact_force.hpp"
@@ -96,6 +97,10 @@ void works_of_force(const double* F_before, const double* F_now, const double* F
 /// ends at `u` (turns).
 void energies_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next, const double* u,
                           const double* D, double* energy, std::size_t size);
+
+/// The sum of eight arrays with these weights.
+void weighted_sum(const std::array<double, 8>& weights, const std::array<const double*, 8>& values, double* sum,
+                  std::size_t size);
 
 /// Whether every |z| is small enough for the range reduction. It is false if any z is NaN.
 bool bounded(const double* z, std::size_t size);
