@@ -32,18 +32,20 @@ class FirstException {
   std::size_t index_ = std::numeric_limits<std::size_t>::max();
 };
 
-/// Calls each(i) for every i < count. Each of `threads` OpenMP threads takes one contiguous part, so that it finds its
-/// own part in its cache at the next call. The threads wait between calls, which makes short loops worthwhile.
+/// Calls each(i) for every i < count. The `threads` OpenMP threads take `together` of them in turn, or one contiguous
+/// part each if that is 0. It is the same part at each call, which the thread then finds in its cache. The threads wait
+/// between calls, which makes short loops worthwhile.
 template <class Each>
-void for_each_on_team(std::size_t count, int threads, const Each& each) {
+void for_each_on_team(std::size_t count, int threads, const Each& each, long together = 0) {
   if (threads <= 1) {
     for (std::size_t i = 0; i < count; ++i) each(i);
     return;
   }
   FirstException first;
   const auto n = static_cast<long>(count);
+  if (together == 0) together = (n + threads - 1) / threads;
 #ifdef _OPENMP
-#pragma omp parallel for num_threads(threads) schedule(static)
+#pragma omp parallel for num_threads(threads) schedule(static, together)
 #endif
   for (long i = 0; i < n; ++i) {
     try {

@@ -81,7 +81,13 @@ void Share::check_execution() const {
 
 void Share::make_slabs() {
   const std::size_t whole = end_block_ - first_block_;
-  const std::size_t count = std::clamp<std::size_t>(whole, 1, static_cast<std::size_t>(execution_.threads));
+  const auto threads = static_cast<std::size_t>(execution_.threads);
+  execution_.tile = std::max(execution_.tile, 2 * halo);
+  // Sites that move can take several times as long as those at rest, and be at one side. So each thread gets several
+  // slabs, of a tile or more.
+  constexpr std::size_t each = 8;
+  const std::size_t tiles = (end_ - begin_) / execution_.tile, most = std::clamp(tiles, threads, each * threads);
+  const std::size_t count = threads == 1 ? 1 : std::clamp<std::size_t>(whole, 1, most);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t from = blocks_.begin(first_block_ + whole * i / count);
     const std::size_t to = blocks_.begin(first_block_ + whole * (i + 1) / count);
@@ -155,11 +161,12 @@ void Share::exchange() {
   forces_.exchange_all(ranks_);
 }
 
-/// Calls each(i) for every slab, on a thread for each slab. `levels` is the number of levels that the slabs advance.
+/// Calls each(i) for every slab, on all threads. `levels` is the number of levels that the slabs advance.
 template <class Each>
 void Share::for_slabs(std::size_t levels, const Each& each) {
   const bool worth = (end_ - begin_) * levels > 50000;  // waking a thread takes longer than fewer site updates
-  for_each_on_team(slabs_.size(), worth ? static_cast<int>(slabs_.size()) : 1, each);
+  const int threads = std::min(static_cast<int>(slabs_.size()), execution_.threads);
+  for_each_on_team(slabs_.size(), worth ? threads : 1, each, 1);
 }
 
 void Share::advance(std::size_t count) {

@@ -16,7 +16,7 @@
 
 namespace slipfront::chain {
 
-/// The sites of one rank, divided into slabs with a thread for each. Calls marked (all) exchange messages between
+/// The sites of one rank, divided into slabs that threads share. Calls marked (all) exchange messages between
 /// ranks.
 class Share {
  public:
