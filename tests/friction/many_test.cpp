@@ -121,6 +121,26 @@ TEST(FrictionOfMany, FindsMeansThatDoNotDependOnTheOtherTrains) {
     }
 }
 
+/// Trains that are all of one kind have loops of their own.
+TEST(FrictionOfMany, FindsEqualMeansOfEqualTrains) {
+  constexpr std::size_t count = 150;
+  for (const Friction& friction : some_of_each())
+    for (const double speed : {1e-3, 0.3, 30.0})
+      for (const double ratio : {0.01, 0.5, 0.99}) {
+        const std::size_t each = friction.state_size();
+        const std::vector<double> fastest(count, speed), s(count, ratio), theta(count, 0.7);
+        std::vector<double> mean(count), slope(count), one(1), slope_of_one(1);
+        const auto find = [&](std::size_t size, std::vector<double>& to, std::vector<double>& slopes) {
+          friction.average().mean_strengths({size, fastest.data(), s.data(), {theta.data(), each}}, Closure::consistent,
+                                            to.data(), slopes.data());
+        };
+        find(count, mean, slope);
+        find(1, one, slope_of_one);
+        EXPECT_EQ(mean, std::vector<double>(count, one[0])) << friction.name();
+        EXPECT_EQ(slope, std::vector<double>(count, slope_of_one[0])) << friction.name();
+      }
+}
+
 /// The curve has a kink and an end. A table of its means must not cross the kink or pass the end.
 TEST(FrictionOfMany, FindsMeansOfACurveWithAKinkAndAnEnd) {
   constexpr double kink = 0.05, end = 0.1;

@@ -247,6 +247,18 @@ TEST(Posterior, DrawsStaticDropsOfTheirPulses) {
   }
 }
 
+/// Without other observations, the rupture velocity is what was observed, and nothing bounds the contact ratio.
+TEST(Posterior, KnowsTheCharacteristicVelocityThatWasObserved) {
+  Observation o;
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  o.rupture_velocity_m_s = lognormal(2500, 1.1);
+  const Posterior p = *posterior(o, defaults, {.samples = 500});
+  ASSERT_TRUE(p.characteristic_velocity && p.rupture_velocity);
+  EXPECT_EQ(p.characteristic_velocity->low, p.rupture_velocity->low);
+  EXPECT_EQ(p.characteristic_velocity->high, p.rupture_velocity->high);
+  EXPECT_FALSE(p.contact_ratio || p.contact_ratio_bound);
+}
+
 TEST(Posterior, NotesUnidentifiableQuantities) {
   Observation o;
   o.name = "velocities";

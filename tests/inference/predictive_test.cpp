@@ -27,6 +27,8 @@ TEST(Predictive, RepeatsUnequalErrorsOnTheirSides) {
   EXPECT_NEAR(repeated(unequal, 5, one_sigma), 5.1, 1e-12);
   EXPECT_NEAR(repeated(unequal, 5, 1 - one_sigma), 4.7, 1e-12);
   EXPECT_NEAR(repeated(unequal, 5, 0.5), 5, 1e-12);
+  for (const double share : {0.01, 0.05, 0.3})
+    EXPECT_NEAR((repeated(unequal, 5, 0.5 + share) - 5) / 0.1, (5 - repeated(unequal, 5, 0.5 - share)) / 0.3, 1e-12);
 }
 
 /// The share of repeated observations below the observed one is the posterior predictive check.

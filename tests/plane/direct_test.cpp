@@ -224,6 +224,12 @@ TEST(PlaneDirect, StrengthHoldsTheStartUntilNucleation) {
   DirectSolver held(p, options);
   held.advance_to(0.5, {});
   EXPECT_EQ(held.potency_rate(), 0);
+  p.nucleation = Nucleation{.x = 0.3, .y = 0, .radius = 0.2, .time = 0.1};
+  DirectSolver released(p, options);
+  released.advance_to(0.3, {});
+  EXPECT_GT(std::fabs(released.slip({{0.3, 0}})[0]), 1e-3);  // friction acts outside of the patch only
+  EXPECT_EQ(released.slip({{-0.3, 0}})[0], 0);
+  EXPECT_EQ(released.energies().dissipated, 0);
   p.friction = slip_weakening(2 * unbalanced, 0.05, 0.5);
   p.nucleation = Nucleation{.x = 0.3, .y = 0, .radius = 0.3, .time = 0};
   DirectSolver whole(p, {.scale = 20, .spacing = 0.2}), first(p, {.scale = 20, .spacing = 0.2}),

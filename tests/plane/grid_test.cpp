@@ -104,6 +104,17 @@ TEST(PlaneGrid, TwoSourcesAreTheSumOfBoth) {
   EXPECT_NEAR(two.potency() / (first.potency() + second.potency()), 1, 0.01);
 }
 
+/// The innermost lines around a peak meet when it falls. The same slip under a load that holds it has no such lines.
+TEST(PlaneGrid, LinesMeetWhereAPeakFalls) {
+  for (const bool hold : {false, true}) {
+    Problem p = bump(0, 1);
+    p.hold = hold;
+    GridSolver solver(p, 61);  // the peak is in the middle of a cell
+    solver.advance_to(0.3, {});
+    EXPECT_EQ(solver.lines_have_met(), !hold);
+  }
+}
+
 /// A static load holds everything until nucleation, up to the tail of the slip, and then the slip is that of every
 /// line.
 TEST(PlaneGrid, ALoadHoldsUntilNucleation) {

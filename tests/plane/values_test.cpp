@@ -7,6 +7,7 @@
 #include "plane/averaged/observe.hpp"
 #include "plane/grid/observe.hpp"
 #include "plane/grid/walls.hpp"
+#include "slipfront/error.hpp"
 
 namespace {
 
@@ -109,6 +110,21 @@ TEST(PlaneValues, AtTheBoundaryOfAHeldRegionAreExactForParabolas) {
           EXPECT_NEAR(action[at], 2 * (face - boundary), 1e-9) << along_y << sign << place;
         }
       }
+}
+
+/// A held region that contains no centre of a cell would have no effect, wherever it is in a cell.
+TEST(PlaneValues, HeldRegionsBetweenCentresAreRefused) {
+  const planes::Cells cells{.nx = 12, .ny = 14, .left = -1, .bottom = 2, .hx = 0.5, .hy = 0.25};
+  for (const double right : {-0.4, 0.0, 0.4})
+    for (const double up : {-0.4, 0.4}) {
+      planes::Problem problem;
+      problem.slip = [](double, double) { return 1.0; };
+      problem.fixed = [&](double x, double y) {
+        return std::fabs((x - cells.x(6)) / 0.5 - right) < 0.05 && std::fabs((y - cells.y(5)) / 0.25 - up) < 0.05 ? 1.0
+                                                                                                                  : 0.0;
+      };
+      EXPECT_THROW(planes::Walls(problem, cells), slipfront::InputError) << right << " " << up;
+    }
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ std::vector<Sampler::Root> Sampler::roots(double seen) {
   }
   if (found.empty()) {
     const bool slip_with_contact = a.source == Source::slip && b.source != Source::friction;
-    refuse(!slip_with_contact ? bad_contact : at_low > 0 && gap(0) > 0 ? slips_too_fast : slips_too_slowly);
+    refuse(!slip_with_contact ? bad_contact : gap(0) > 0 ? slips_too_fast : slips_too_slowly);
   }
   return found;
 }

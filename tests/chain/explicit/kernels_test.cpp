@@ -19,25 +19,30 @@ TEST(ChainKernels, SumOverAllSitesOfTheirBlocks) {
     a.push_back((j % 2 == 0 ? 1 : -1) * std::sqrt(j + 1.0));
     b.push_back(std::cos(0.3 * j));
   }
-  std::vector<double> values(4 * chains::lanes), absolutes(values), products(values);
+  std::vector<double> values(4 * chains::lanes), absolutes(values), products(values), squares(values);
   chains::add_values({begins, 4, values.data(), chains::lanes}, 2, a.data());
   chains::add_absolutes({begins, 4, absolutes.data(), chains::lanes}, 3, a.data());
   chains::add_products({begins, 4, products.data(), chains::lanes}, 0.5, a.data(), b.data());
+  chains::add_squares({begins, 4, squares.data(), chains::lanes}, 1.5, a.data(), b.data());
   for (std::size_t i = 0; i < 4; ++i) {
-    double sum = 0, sum_of_absolutes = 0, sum_of_products = 0;
+    double sum = 0, sum_of_absolutes = 0, sum_of_products = 0, sum_of_squares = 0;
     for (std::size_t j = begins[i] - 5; j < begins[i + 1] - 5; ++j) {
       sum += 2 * a[j];
       sum_of_absolutes += 3 * std::fabs(a[j]);
       sum_of_products += 0.5 * a[j] * b[j];
+      // the integral over a step of the square of a rate that is linear in time
+      sum_of_squares += 1.5 * (a[j] * a[j] + (a[j] - b[j]) * (a[j] - b[j]) / 12);
     }
     for (std::size_t k = 0; k < chains::lanes; ++k) {
       sum -= values[chains::lanes * i + k];
       sum_of_absolutes -= absolutes[chains::lanes * i + k];
       sum_of_products -= products[chains::lanes * i + k];
+      sum_of_squares -= squares[chains::lanes * i + k];
     }
     EXPECT_NEAR(sum, 0, 1e-12) << i;
     EXPECT_NEAR(sum_of_absolutes, 0, 1e-12) << i;
     EXPECT_NEAR(sum_of_products, 0, 1e-12) << i;
+    EXPECT_NEAR(sum_of_squares, 0, 1e-11) << i;
   }
 }
 
@@ -92,6 +97,43 @@ TEST(ChainKernels, PartsHaveTheirMiddles) {
   const std::vector<double> middles = chains::middles_of_parts(problem, 1);
   ASSERT_EQ(middles.size(), 1u);
   EXPECT_NEAR(middles[0], 0, 1e-14);
+}
+
+/// A step is linear in u, S and F at its five points. Its result solves the equation in scheme.hpp for any such
+/// numbers, or that of the lattice.
+TEST(ChainScheme, StepSolvesTheEquation) {
+  struct Value {
+    double next, before, now, left, right;
+    double bend() const { return left - 2 * now + right; }
+  };
+  const Value u{0, 0.3, -0.7, 0.2, 1.1}, S{0.4, -0.9, 0.25, 0.6, -0.35}, F{0.8, 0.5, -0.2, -0.6, 0.15};
+  for (const chains::Model model : {chains::Model::sine_gordon, chains::Model::lattice})
+    for (const double C : {0.0, 0.6, 5.0}) {
+      chains::Problem p;
+      p.grid = {0, 0.4, 40};
+      p.model = model;
+      p.friction = slipfront::friction::viscous(C);
+      const chains::Scheme scheme = chains::scheme_of(p);
+      const bool lattice = model == chains::Model::lattice;
+      const double g = C * scheme.dt / 2, dt2 = scheme.dt * scheme.dt, lambda2 = dt2 / (0.4 * 0.4);
+      const double theta = lattice ? 0 : (std::cosh(g) - 1) / (std::cosh(g) + 5);
+      const auto shared = [&](const Value& f) {
+        return lattice ? f.now : (std::exp(g) * f.next + std::exp(-g) * f.before + 10 * f.now + f.bend()) / 12;
+      };
+      const double of_now = (lattice ? 2 * std::cosh(g) : 2 + 10 * theta) * u.now + (lambda2 + theta) * u.bend();
+      const double next =
+          ((of_now - dt2 * (shared(S) - shared(F))) / (1 - theta) - std::exp(-g) * u.before) / std::exp(g);
+      const auto z = [&](double displacement, double force) { return displacement + scheme.eps * force; };
+      const auto y = [&](double displacement, double force) {
+        return z(displacement, force) - scheme.rule.coupled * force;
+      };
+      const double stepped = scheme.rule.keep * z(u.now, S.now) - scheme.rule.force * S.now -
+                             scheme.rule.before * z(u.before, S.before) +
+                             scheme.rule.spread * (y(u.left, S.left) + y(u.right, S.right)) +
+                             scheme.force * (scheme.share_next * F.next + scheme.share_before * F.before +
+                                             scheme.share_now * F.now + scheme.share_neighbour * (F.left + F.right));
+      EXPECT_NEAR(stepped, z(next, S.next), 1e-14) << lattice << " " << C;
+    }
 }
 
 }  // namespace
