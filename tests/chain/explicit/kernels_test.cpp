@@ -5,6 +5,7 @@
 
 #include "chain/explicit/levels/contact_force.hpp"
 #include "chain/explicit/levels/kernel.hpp"
+#include "chain/explicit/levels/scheme.hpp"
 #include "chain/implicit/watched_parts.hpp"
 
 namespace {
