@@ -82,7 +82,8 @@ double ForcingInTime::largest_error(long level, std::size_t first) const {
     double sum = 0;
     for (std::size_t i = 0; i < nodes; ++i) sum += weight[i] * values_[i][j];
     const double error = std::fabs(sum - formula(j, static_cast<double>(level)));
-    if (!(error <= most)) most = std::isnan(error) ? infinity : error;
+    if (std::isnan(error)) return infinity;
+    most = std::fmax(most, error);
   }
   return most;
 }
