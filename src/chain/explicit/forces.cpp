@@ -147,7 +147,7 @@ void Forces::next_coefficients(long offset, std::size_t begin, std::size_t end, 
 }
 
 void Forces::begin_level(const EndConditions& ends, const LevelSites& s, Outflow& outflow) const {
-  // The second loop needs y of one more site on either side where the chain goes on.
+  // The second loop needs y of one more site on each side that is no end.
   const std::size_t begin = (is_end(ends.left) ? s.left : s.left - 1) / lanes * lanes;
   const std::size_t end = ((is_end(ends.right) ? s.right : s.right + 1) + lanes - 1) / lanes * lanes;
   if (s.coefficients != nullptr)

@@ -16,7 +16,7 @@ struct LevelSites {
   std::size_t left, right;
   const double *before, *now;
   double *next, *y;                      ///< `next` may be `before`, unless friction has an implicit speed
-  const double* coefficients = nullptr;  ///< of the contact force (contact_coefficients), if a varies
+  const double* coefficients = nullptr;  ///< contact_coefficients, if a varies
   friction::LocalStates states = {};
   double* applied = nullptr;  ///< gets the friction force on each site, if it is neither linear nor constant
   StepOfU step = {};

@@ -32,7 +32,7 @@ void ForcingInTime::at(long level, const Ranks& ranks, std::vector<double>& F) {
   weighted_sum(weight, values, F.data(), F.size());
 }
 
-/// Of the values at the nodes in that at a level: the barycentric formula.
+/// The weights of the values at the nodes in the value at a level, by the barycentric formula.
 std::array<double, ForcingInTime::nodes> ForcingInTime::weights(double level) const {
   const double middle = 0.5 * static_cast<double>(begin_ + end_), half = 0.5 * static_cast<double>(end_ - begin_);
   const double s = (level - middle) / half;

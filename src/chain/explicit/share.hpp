@@ -75,7 +75,7 @@ class Share {
   Forces forces_;
   WorkMeter meter_;
   std::vector<Slab> slabs_;
-  std::vector<Sweep> sweeps_;  ///< of each slab
+  std::vector<Sweep> sweeps_;  ///< one for each slab
   long level_;
   std::size_t depth_ = halo;
 };

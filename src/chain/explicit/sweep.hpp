@@ -18,7 +18,7 @@ class Sweep {
   /// least as many sites as a halo, unless it is the only one.
   Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size_t> cuts);
 
-  /// Gets the state variables of the sites beside the slab, which its owner may change while this slab advances.
+  /// Gets the state variables of the sites next to the slab, which another thread may change while this one advances.
   void exchange_states();
   /// Advances by `count` levels, at most a halo.
   void advance(std::size_t count);

@@ -57,7 +57,7 @@ TEST(ForcingInTime, CallsASmoothFormulaRarely) {
   EXPECT_LT(slow.calls, 0.1);
 }
 
-/// What happens between the times of a polynomial is seen, if only for a moment and in few places.
+/// A short and narrow force between the times of a polynomial is not lost.
 TEST(ForcingInTime, FollowsWhatIsNotSmooth) {
   const Compared spike = compared([](double x, double t) {
     return 0.01 + 0.3 * std::exp(-std::pow((t - 333) / 2, 2) - std::pow((x - 40) / 8, 2));

@@ -30,7 +30,7 @@ inline constexpr std::size_t halo = 32;
 
 /// The conditions at the two ends of consecutive sites, level by level.
 enum class EndCondition { joined, free, fixed, absorbing, seam };
-/// Whether the chain has no sites beyond.
+/// Whether the chain ends there.
 inline bool is_end(EndCondition side) { return side != EndCondition::joined && side != EndCondition::seam; }
 struct EndConditions {
   EndCondition left = EndCondition::joined,
