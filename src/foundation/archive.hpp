@@ -112,7 +112,7 @@ class Archive {
 
  private:
   /// Increase this number if a state that an earlier version wrote cannot be restored.
-  static constexpr std::uint64_t format = 0x736c697000000a;  // "slip", version 10
+  static constexpr std::uint64_t format = 0x736c697000000b;  // "slip", version 11
 
   Archive(std::string* to, std::string_view from) : to_(to), from_(from) { same(format); }
 

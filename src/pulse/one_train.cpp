@@ -11,6 +11,14 @@ namespace slipfront::pulse {
 OneTrain::OneTrain(Problem problem)
     : solver_(std::move(problem)), trailing_characteristic_(solver_), first_energy_(stored_energy(solver_)) {}
 
+OneTrain::OneTrain(Problem problem, Start start) : OneTrain(std::move(problem)) {
+  const double trailing = std::isnan(start.trailing_front) ? trailing_characteristic_.position() : start.trailing_front;
+  solver_.restore(std::move(start.cells));
+  trailing_characteristic_.restore(solver_, trailing);
+  slip_ = start.slip;
+  warnings_ = std::move(start.warnings);
+}
+
 bool OneTrain::advance_to(double target, const std::function<bool()>& after_step) {
   double before = time();
   return solver_.advance_to(target, [&] {
@@ -26,7 +34,7 @@ bool OneTrain::advance_to(double target, const std::function<bool()>& after_step
 
 void OneTrain::archive(Archive& a) {
   double position = trailing_characteristic_.position();
-  a(solver_, position, slip_);
+  a(solver_, position, slip_, warnings_);
   if (a.reads()) trailing_characteristic_.restore(solver_, position);
 }
 
@@ -42,7 +50,9 @@ output::Snapshot OneTrain::observe(const output::Schedule& schedule) const {
 }
 
 output::Findings OneTrain::findings(const std::vector<output::Snapshot>& snapshots) const {
-  return Checks(solver_, first_energy_, slip_, snapshots).findings();
+  output::Findings found = Checks(solver_, first_energy_, slip_, snapshots).findings();
+  found.sentences.insert(found.sentences.end(), warnings_.begin(), warnings_.end());
+  return found;
 }
 
 }  // namespace slipfront::pulse

@@ -17,6 +17,15 @@ class OneTrain : public Motion {
  public:
   explicit OneTrain(Problem problem);
 
+  /// The state in which one train takes over from many.
+  struct Start {
+    Cells cells;
+    double trailing_front;  ///< x of its characteristic; NaN: as at t = 0
+    SlipRecord slip;
+    std::vector<std::string> warnings;
+  };
+  OneTrain(Problem problem, Start start);
+
   const Solver& solver() const { return solver_; }
   const Problem& problem() const override { return solver_.problem(); }
   double time() const override { return solver_.cells().time; }
@@ -39,7 +48,8 @@ class OneTrain : public Motion {
   Solver solver_;
   TrailingCharacteristic trailing_characteristic_;
   StoredEnergy first_energy_;
-  SlipRecord slip_;  ///< at x = 0
+  SlipRecord slip_;                    ///< at x = 0
+  std::vector<std::string> warnings_;  ///< those of the trains before
 };
 
 }  // namespace slipfront::pulse

@@ -9,9 +9,7 @@
 #include "foundation/clock.hpp"
 #include "foundation/step_budget.hpp"
 #include "foundation/text/digits.hpp"
-#include "pulse/contours/many_trains.hpp"
-#include "pulse/motion.hpp"
-#include "pulse/one_train.hpp"
+#include "pulse/hand_over.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/output/quantities.hpp"
 
@@ -23,16 +21,52 @@ double expected_steps(const Motion& start, const output::Schedule& schedule) {
   return start.expected_steps(schedule.times.back()) + 2 * static_cast<double>(schedule.times.size());
 }
 
-std::unique_ptr<Motion> motion_of(Problem problem) {
-  if (problem.many_trains) return std::make_unique<ManyTrains>(std::move(problem));
+/// The motion with as many trains at one position as there are, or with one.
+std::unique_ptr<Motion> motion_of(Problem problem, bool many) {
+  problem.many_trains = many;
+  if (many) return std::make_unique<ManyTrains>(std::move(problem));
   return std::make_unique<OneTrain>(std::move(problem));
 }
 
 }  // namespace
 
+/// A motion, and the one that takes over from it.
+class Motions {
+ public:
+  explicit Motions(Problem problem) : many_(problem.many_trains), now_(motion_of(std::move(problem), many_)) {}
+
+  Motion& operator*() const { return *now_; }
+  Motion* operator->() const { return now_.get(); }
+  /// Whether the run began with many trains at one position.
+  bool began_with_many() const { return many_; }
+
+  bool advance_to(double target, const std::function<bool()>& after_step) {
+    bool stopped = false;
+    const auto stops = [&] { return stopped = after_step(); };
+    while (true) {
+      now_->advance_to(target, stops);
+      const auto* many = dynamic_cast<const ManyTrains*>(now_.get());
+      if (many == nullptr || !many->is_over()) return now_->time() >= target;
+      now_ = one_train_after(*many);
+      if (stopped) return false;
+    }
+  }
+  void archive(Archive& a) {
+    a.same(many_);
+    bool many = now_->problem().many_trains;
+    a(many);
+    if (a.reads() && many != now_->problem().many_trains) now_ = motion_of(now_->problem(), many);
+    a(*now_);
+  }
+
+ private:
+  bool many_;
+  std::unique_ptr<Motion> now_;
+};
+
 struct Run::Parts {
   output::Schedule schedule;
-  std::unique_ptr<Motion> motion;
+  Motions motion;
   StepBudget budget;
   double stepping_seconds = 0;
   std::vector<output::Snapshot> snapshots;
@@ -45,7 +79,7 @@ struct Run::Parts {
 
   Parts(Problem problem, output::Schedule given)
       : schedule(std::move(given)),
-        motion(motion_of(std::move(problem))),
+        motion(std::move(problem)),
         budget(expected_steps(*motion, schedule), schedule.times.back()) {}
 
   bool finished() const { return snapshots.size() == schedule.times.size(); }
@@ -57,7 +91,7 @@ struct Run::Parts {
   void look_at_end() {
     if (aimed_at_end) return;
     Archive a = Archive::to(before_end);
-    a(*motion);
+    a(motion);
   }
 };
 
@@ -73,11 +107,11 @@ Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std
 
 void Run::Parts::archive(Archive& a) {
   double end = schedule.times.back();
-  a(*motion, end, aimed_at_end);
+  a(motion, end, aimed_at_end);
   if (aimed_at_end) a(before_end);
   a.require(snapshots.size() <= schedule.times.size());
   if (!a.reads() || !aimed_at_end || end == schedule.times.back()) return;
-  restore(*motion, before_end);
+  restore(motion, before_end);
   aimed_at_end = false;
   while (!snapshots.empty() && snapshots.back().time > motion->time()) snapshots.pop_back();
 }
@@ -112,6 +146,8 @@ std::vector<std::string> Run::warnings() const {
 
 void Run::Parts::take_snapshot() {
   output::Snapshot s = motion->observe(schedule);
+  if (motion.began_with_many() && s.profile.trains.empty())
+    for (const double k : s.profile.k) s.profile.trains.push_back(k > 0 ? 1 : 0);
   output::complete(s, schedule);
   snapshots.push_back(std::move(s));
 }
@@ -128,7 +164,7 @@ bool Run::Parts::advance_to(double target, const std::function<bool()>& interrup
     return interrupted && interrupted();
   };
   const auto begun = Clock::now();
-  const bool reached = motion->advance_to(target, after_step);
+  const bool reached = motion.advance_to(target, after_step);
   stepping_seconds += seconds_since(begun);
   return reached;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "foundation/math/constants.hpp"
 #include "foundation/math/parabola.hpp"
@@ -86,16 +87,22 @@ void Along::integrate() {
   energy_ = energy_of(trains_.work());
   stress_.assign(nodes_.size(), 0.0);
   lost_.assign(nodes_.size(), 0.0);
+  before_.assign(nodes_.size(), 0.0);
+  momentum_.assign(nodes_.size(), 0.0);
   std::vector<double> changed(nodes_.size());
   for (std::size_t i = 0; i < pieces; ++i) {
     const double half = (nodes_[i + 1] - nodes_[i]) / 2;
     stress_[i + 1] = stress_[i];
     lost_[i + 1] = lost_[i];
+    before_[i + 1] = before_[i];
+    momentum_[i + 1] = momentum_[i];
     changed[i + 1] = changed[i];
     for (std::size_t j = 0; j < 2; ++j) {
       const edges::Means &here = now[3 * i + 1 + j], &first = before[2 * i + j];
       stress_[i + 1] += half * here.k;
       lost_[i + 1] += half * (here.k - first.k);
+      before_[i + 1] += half * first.k;
+      momentum_[i + 1] += half * here.P;
       changed[i + 1] += half * std::fabs(here.k - first.k);
       add_energy(i, half, here, first);
     }
@@ -146,6 +153,18 @@ bool Along::in_domain(std::size_t node) const {
 double Along::visible(double x) const { return x >= trains_.problem().left && x <= trains_.problem().right ? x : none; }
 
 double Along::conservation_error() const { return std::fabs(uncounted_) / count_; }
+
+/// The dislocations at x are those that were there at t = 0, less those that have passed.
+Counted Along::counted(double origin) const {
+  Counted all{.x = nodes_, .count = {}, .momentum = momentum_, .density = {}, .momentum_density = {}};
+  const double first = before_[at(origin)];
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    all.count.push_back((before_[i] - first - slip(i)) / (2 * std::numbers::pi));
+    all.density.push_back(means_[i].k / (2 * std::numbers::pi));
+    all.momentum_density.push_back(means_[i].P);
+  }
+  return all;
+}
 
 output::Profile Along::profile(const std::vector<double>& x_edges) const {
   output::Profile profile;

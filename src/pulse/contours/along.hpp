@@ -11,6 +11,11 @@ namespace slipfront::pulse {
 
 class ManyTrains;
 
+/// At positions x: the dislocations to the left now, counted from an x at t = 0, and their momentum; densities of both.
+struct Counted {
+  std::vector<double> x, count, momentum, density, momentum_density;
+};
+
 /// Slip is the integral of the stress at t = 0 less that now, from where nothing has moved.
 class Along {
  public:
@@ -21,6 +26,8 @@ class Along {
   /// 2 pi times the dislocations in the domain at t = 0.
   double count() const { return count_; }
   double conservation_error() const;
+  /// Dislocations that were to the right of `origin` at t = 0 count as positive.
+  Counted counted(double origin) const;
   /// All of a snapshot but what output::complete adds.
   output::Snapshot snapshot(const output::Schedule& schedule) const;
 
@@ -44,6 +51,7 @@ class Along {
   std::vector<double> nodes_;          ///< x, rising: points of curves now and at t = 0, and those of the profile
   std::vector<edges::Means> means_;    ///< at the nodes
   std::vector<double> stress_, lost_;  ///< integrals from the left up to each node: of k, and of k less that at t = 0
+  std::vector<double> before_, momentum_;  ///< integrals of k at t = 0, and of P now
   double count_ = 0, uncounted_ = 0;
   output::Energy energy_{};
 };

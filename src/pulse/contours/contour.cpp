@@ -160,6 +160,7 @@ class Builder {
     made_.x.push_back(x);
     made_.r.push_back(r);
     made_.corner.push_back(corner);
+    made_.parameter_behind.push_back(1);
     made_.previous.push_back(n > first_ ? n - 1 : Contour::nothing);
     made_.next.push_back(Contour::nothing);
     if (n > first_) made_.next[n - 1] = n;

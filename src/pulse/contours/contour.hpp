@@ -28,6 +28,8 @@ struct Contour {
   std::vector<double> r;                    ///< rapidity of each point
   std::vector<std::size_t> previous, next;  ///< neighbours on the same curve; nothing at the end of a curve
   std::vector<std::uint8_t> corner;         ///< points where a curve has no tangent
+  /// Along a curve, x and r are smooth functions of a parameter. This is its change up to the next point: 1 at t = 0.
+  std::vector<double> parameter_behind;
   /// The point of the fast front: the foot of the fan of a step, or where a smooth stress first differs from that at
   /// the more stressed end. Nothing if neither end is stressed.
   std::size_t front = nothing;
@@ -38,6 +40,8 @@ struct Contour {
   std::size_t size() const { return r.size(); }
   /// Whether a point is the end of a curve outside the domain. It does not move.
   bool is_end(std::size_t point) const { return previous[point] == nothing || next[point] == nothing; }
+  /// The ends of the two curves that continue to the left (side -1) or right, the lower rapidity first; or nothing.
+  std::vector<std::size_t> ends(double side) const;
   void archive(Archive& a);
   /// Adds a point on the curve half-way to the next point.
   void add_behind(std::size_t point);

@@ -8,6 +8,8 @@
 /// over makes two trains out of one. Nothing breaks, so that there are no shocks. The ends of the domain are not seen:
 /// a train continues outside with the stress and the load of the end, or there is none.
 
+#include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,14 +38,15 @@ struct Work {
 /// The part of a checkpoint that describes the motion of many trains at one time.
 struct ManyTrainsState {
   double time = 0, steps = 0;
-  double step = 0;  ///< length that the error of the last step recommends; 0 before the first one
+  double third_train = none;  ///< x at which friction or a load acts on three trains now; NaN: nowhere
+  double step = 0;            ///< length that the error of the last step recommends; 0 before the first one
   Contour curves = {};
   Work work = {};
   SlipRecord slip = {};  ///< at x = 0
 
   void archive(Archive& a) {
     a.same(std::string("many trains"));
-    a(time, steps, step, curves, work, slip);
+    a(time, steps, third_train, step, curves, work, slip);
     a.require(steps >= 0 && steps < 9e15);
   }
 };
@@ -61,6 +64,9 @@ class ManyTrains : public Motion {
   bool aimed_at_target() const override { return aimed_; }
   double expected_steps(double duration) const override;
   std::string reason_of_short_steps() const override;
+  /// Whether one train at each position has to take over. Friction wears the motion of the trains relative to each
+  /// other off, and at last no points resolve them (docs/theory/9_trains.md 9.7). A third train also ends this motion.
+  bool is_over() const { return time() >= last_time() || !std::isnan(state_.third_train); }
 
   void archive(Archive& a) override;
 
@@ -68,6 +74,9 @@ class ManyTrains : public Motion {
   output::Findings findings(const std::vector<output::Snapshot>& snapshots) const override;
   std::optional<SlipTwice> slip_twice() const override;
   double conservation_error() const override;
+  /// Findings without earlier snapshots, with the reason if a third train ends this motion.
+  output::Findings findings_now() const;
+  const SlipRecord& slip() const { return state_.slip; }
 
   /// The curves at t = 0 and now.
   const Contour& start() const { return start_; }
@@ -78,6 +87,8 @@ class ManyTrains : public Motion {
 
  private:
   std::optional<SlipTwice> slip_twice(const Along& along) const;
+  /// Time at which one train takes over.
+  double last_time() const;
   void step(double target);
   /// One attempt at a step of this length from these points. It changes the points of the state.
   StepAttempt attempt(const Points& before, double length);
@@ -90,10 +101,12 @@ class ManyTrains : public Motion {
   Work power() const;
   void add_work(double length);
   bool remove_sawteeth();
+  struct Interval {
+    double left, right;
+  };
+  Interval driven_stretch() const;
   bool refine();
   bool extend(double side);
-  /// The ends of the two curves that continue to the left (side -1) or right, the lower rapidity first; or nothing.
-  std::vector<std::size_t> ends(double side) const;
   Points points() const { return {state_.curves.x, state_.curves.r}; }
   double first_step() const;
 

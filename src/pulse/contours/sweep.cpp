@@ -36,27 +36,50 @@ double solve_for(const Cubic& curve, double at) {
   return s;
 }
 
-/// Change of a coordinate from point to point along the curve, at one end of a stretch: by central differences, at a
-/// corner from one side.
-double change_at(const std::vector<double>& f, std::size_t here, std::size_t ahead, std::size_t behind, bool corner,
-                 std::size_t after, bool ahead_is_corner) {
-  if (!corner && behind != Contour::nothing) return (f[ahead] - f[behind]) / 2;
-  if (ahead_is_corner || after == Contour::nothing) return f[ahead] - f[here];
-  return 2 * (f[ahead] - f[here]) - (f[after] - f[here]) / 2;
+/// Derivative of the parabola through three values at the first of them, times the distance to the second one.
+double change_behind(double here, double ahead, double after, double first, double second) {
+  const double share = first / (first + second);
+  return (ahead - here) * (1 + share) - (after - ahead) * share * first / second;
 }
 
-/// A coordinate along a curve between a point and the next one, as a cubic function of the number of the point.
+/// Derivative of the parabola at the second value, times the distance to the third one.
+double change_between(double before, double here, double ahead, double first, double second) {
+  const double share = first / (first + second);
+  return (ahead - here) * share + (here - before) * (1 - share) * second / first;
+}
+
+/// A coordinate along a curve between a point and the next one, as a cubic function of the parameter. A curve has no
+/// tangent at a corner: there the parabola through the points on one side counts.
 Cubic behind(const Contour& c, const std::vector<double>& f, std::size_t a) {
   const std::size_t b = c.next[a], before = c.previous[a], after = c.next[b];
-  return {f[a], f[b], change_at(f, a, b, before, c.corner[a], after, c.corner[b]),
-          -change_at(f, b, a, after, c.corner[b], before, c.corner[a])};
+  const double length = c.parameter_behind[a];
+  double from = f[b] - f[a], to = from;
+  if (before != Contour::nothing && !c.corner[a])
+    from = change_between(f[before], f[a], f[b], c.parameter_behind[before], length);
+  else if (after != Contour::nothing && !c.corner[b])
+    from = change_behind(f[a], f[b], f[after], length, c.parameter_behind[b]);
+  if (after != Contour::nothing && !c.corner[b])
+    to = -change_between(f[after], f[b], f[a], c.parameter_behind[b], length);
+  else if (before != Contour::nothing && !c.corner[a])
+    to = -change_behind(f[b], f[a], f[before], length, c.parameter_behind[before]);
+  return {f[a], f[b], from, to};
 }
 
 }  // namespace
 
+std::vector<std::size_t> Contour::ends(double side) const {
+  std::vector<std::size_t> ends;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (is_end(i) && x[i] * side > 0) ends.push_back(i);
+  if (ends.size() != 2) return {};
+  if (r[ends[1]] < r[ends[0]]) std::swap(ends[0], ends[1]);
+  return ends;
+}
+
 void Contour::archive(Archive& a) {
-  a(x, r, previous, next, corner, front, tip);
-  for (const std::size_t each : {r.size(), previous.size(), next.size(), corner.size()}) a.require(each == x.size());
+  a(x, r, previous, next, corner, parameter_behind, front, tip);
+  for (const std::size_t each : {r.size(), previous.size(), next.size(), corner.size(), parameter_behind.size()})
+    a.require(each == x.size());
   const auto exists = [this](std::size_t point) { return point == nothing || point < x.size(); };
   a.require(exists(front) && exists(tip) && std::all_of(previous.begin(), previous.end(), exists) &&
             std::all_of(next.begin(), next.end(), exists));
@@ -72,10 +95,13 @@ std::size_t Contour::insert_behind(std::size_t a, double at_x, double at_r) {
   previous.push_back(a);
   next.push_back(b);
   next[a] = previous[b] = made;
+  parameter_behind[a] /= 2;
+  parameter_behind.push_back(parameter_behind[a]);
   return made;
 }
 
 void Contour::remove(std::size_t point) {
+  parameter_behind[previous[point]] += parameter_behind[point];
   next[previous[point]] = next[point];
   previous[next[point]] = previous[point];
   const std::size_t last = size() - 1;
@@ -83,6 +109,7 @@ void Contour::remove(std::size_t point) {
     x[point] = x[last];
     r[point] = r[last];
     corner[point] = corner[last];
+    parameter_behind[point] = parameter_behind[last];
     previous[point] = previous[last];
     next[point] = next[last];
     if (previous[point] != nothing) next[previous[point]] = point;
@@ -93,6 +120,7 @@ void Contour::remove(std::size_t point) {
   x.pop_back();
   r.pop_back();
   corner.pop_back();
+  parameter_behind.pop_back();
   previous.pop_back();
   next.pop_back();
 }
