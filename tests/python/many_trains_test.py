@@ -49,6 +49,18 @@ class ManyTrains(unittest.TestCase):
                 self.assertLess(many, 0.005)
                 self.assertLess(many, one)
 
+    def test_waves_where_a_gap_closes_vanish_with_the_scale(self):
+        case = os.path.join(SOURCE, "cases/shock.toml")
+        exact = slipfront.pulse(case, errors=False, set={"pulse.trains": "many", "pulse.cells": 400}).isel(time=-1)
+        zone = (exact.x / exact.time > -0.17) & (exact.x / exact.time < -0.1)
+        waves = {}
+        for scale in (1000, 4000):
+            chain = slipfront.chain(case, set={"chain.scale": scale}).isel(time=-1)
+            waves[scale] = float(((chain.W - exact.W)[zone] ** 2).mean() ** 0.5)
+        print("waves where a gap closes:", waves)
+        self.assertLess(waves[1000], 0.03 * float(exact.W[zone].mean()))
+        self.assertLess(waves[4000], 0.8 * waves[1000])
+
     def test_energy_of_the_gap_is_kept(self):
         case = {"initial": {"profile": "formula", "formula": "abs(x) < 0.3 ? 0 : 0.8"}, "domain": {"left": -8, "right": 8}, "time": {"end": 12}}
         lost = [slipfront.pulse(case, errors=False, set={"pulse.trains": trains})["energy_residual"].values[-1] for trains in ("one", "many")]
