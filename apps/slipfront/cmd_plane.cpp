@@ -7,7 +7,7 @@
 #include "long_run.hpp"
 #include "run/fault_plane.hpp"
 #include "run/plane.hpp"
-#include "slipfront/plane/direct.hpp"
+#include "slipfront/plane/solvers.hpp"
 #include "slipfront/scenario/problem.hpp"
 
 namespace {

@@ -19,7 +19,8 @@ struct Face {
   double x, momentum;
 };
 
-/// Where as many dislocations are to the left as there were at a face at t = 0. Densities are linear between positions.
+/// The position with as many dislocations to the left as there were at a face at t = 0. Densities are linear between
+/// positions.
 Face face_at(const Counted& all, double count) {
   const auto at = std::upper_bound(all.count.begin() + 1, all.count.end() - 1, count) - all.count.begin();
   const auto right = static_cast<std::size_t>(at), left = right - 1;

@@ -11,7 +11,7 @@
 #include "run/tables.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/medium.hpp"
-#include "slipfront/plane/direct.hpp"
+#include "slipfront/plane/solvers.hpp"
 #include "slipfront/plane/source_parameters.hpp"
 #include "slipfront/scenario/problem.hpp"
 

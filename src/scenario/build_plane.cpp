@@ -7,9 +7,7 @@
 #include "foundation/text/digits.hpp"
 #include "scenario/solver_errors.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/averaged.hpp"
-#include "slipfront/plane/direct.hpp"
-#include "slipfront/plane/grid.hpp"
+#include "slipfront/plane/solvers.hpp"
 #include "slipfront/scenario/problem.hpp"
 
 namespace slipfront::scenario {
@@ -54,11 +52,9 @@ std::unique_ptr<plane::Solver> plane_solver(const Scenario& s, Lines lines, int 
   const SolverKind kind = lines == Lines::averaged ? SolverKind::plane : SolverKind::plane_direct;
   const char* const slip_key = s.initial.file.empty() ? "initial.formula" : "initial.file";
   const auto make = [&]() -> std::unique_ptr<plane::Solver> {
-    if (lines == Lines::averaged && s.plane->on_grid)
-      return std::make_unique<plane::GridSolver>(s.plane->problem, s.plane->cells);
+    if (lines == Lines::averaged && s.plane->on_grid) return plane::grid_solver(s.plane->problem, s.plane->cells);
     if (lines == Lines::averaged)
-      return std::make_unique<plane::AveragedSolver>(
-          s.plane->problem, plane::Resolution{.loops = s.plane->loops, .angles = s.plane->angles});
+      return plane::loops_solver(s.plane->problem, {.loops = s.plane->loops, .angles = s.plane->angles});
     const plane::DirectOptions options{.scale = scale_of_lines(s),
                                        .spacing = s.chain.spacing.value_or(plane::DirectOptions{}.spacing),
                                        .threads = threads,
@@ -71,7 +67,7 @@ std::unique_ptr<plane::Solver> plane_solver(const Scenario& s, Lines lines, int 
                         .problem = "the lines need " + digits(need / 1e9, 3) + " GB of memory, this process may have " +
                                    digits(usable_memory() / 1e9, 3) + " GB",
                         .allowed = "a smaller scale"});
-    return std::make_unique<plane::DirectSolver>(s.plane->problem, options);
+    return plane::direct_solver(s.plane->problem, options);
   };
   return with_keys(kind, s.file, make, slip_key);
 }

@@ -1,5 +1,3 @@
-#include "slipfront/plane/averaged.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,13 +9,12 @@
 #include "foundation/archive.hpp"
 #include "rings.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/grid.hpp"
 #include "slipfront/plane/run.hpp"
+#include "slipfront/plane/solvers.hpp"
 
 namespace {
 
 using namespace slipfront;
-using plane::AveragedSolver;
 using plane::Point;
 using plane::Problem;
 using rings::polar;
@@ -29,24 +26,24 @@ const rings::Slip& slip_of_rings() {
 
 /// Slip and front of the rings agree with those of 4365 rings, followed one by one by the radial sine-Gordon equation.
 TEST(PlaneAveraged, RingsAgreeWithEveryRing) {
-  AveragedSolver solver(rings::problem(slip_of_rings()), {60, 1});
-  EXPECT_TRUE(solver.advance_to(1, {}));
-  const std::vector<double> slip = solver.slip({polar(1.25, 0), polar(1.65, 0), polar(2.05, 0)});
+  const auto solver = plane::loops_solver(rings::problem(slip_of_rings()), {60, 1});
+  EXPECT_TRUE(solver->advance_to(1, {}));
+  const std::vector<double> slip = solver->slip({polar(1.25, 0), polar(1.65, 0), polar(2.05, 0)});
   EXPECT_NEAR(slip[0] / 0.10733, 1, 0.01);
   EXPECT_NEAR(slip[1] / 0.34079, 1, 0.003);
   EXPECT_NEAR(slip[2] / 0.45870, 1, 0.003);
-  EXPECT_NEAR(solver.front(1) / 2.4606, 1, 0.003);
+  EXPECT_NEAR(solver->front(1) / 2.4606, 1, 0.003);
 }
 
 TEST(PlaneAveraged, RingsWithFrictionAgreeWithEveryRing) {
   Problem problem = rings::problem(slip_of_rings());
   problem.friction = friction::viscous(0.5);
-  AveragedSolver solver(problem, {60, 1});
-  solver.advance_to(3, {});
-  const std::vector<double> slip = solver.slip({polar(1.45, 0), polar(2.05, 0)});
+  const auto solver = plane::loops_solver(problem, {60, 1});
+  solver->advance_to(3, {});
+  const std::vector<double> slip = solver->slip({polar(1.45, 0), polar(2.05, 0)});
   EXPECT_NEAR(slip[0] / 0.40487, 1, 0.01);
   EXPECT_NEAR(slip[1] / 0.72095, 1, 0.01);
-  EXPECT_NEAR(solver.front(1) / 2.7887, 1, 0.01);
+  EXPECT_NEAR(solver->front(1) / 2.7887, 1, 0.01);
 }
 
 /// The paper's closure takes C W from the wave action, the consistent one C I. A power law with nearly the exponent 1
@@ -55,16 +52,16 @@ TEST(PlaneAveraged, ViscousFrictionFollowsItsClosure) {
   const auto loops = [](const friction::Friction& friction) {
     Problem problem = rings::problem(slip_of_rings());
     problem.friction = friction;
-    AveragedSolver solver(problem, {30, 1});
-    solver.advance_to(1, {});
-    return solver.potency();
+    const auto solver = plane::loops_solver(problem, {30, 1});
+    solver->advance_to(1, {});
+    return solver->potency();
   };
   const auto grid = [](const friction::Friction& friction) {
     Problem problem = rings::problem(slip_of_rings());
     problem.friction = friction;
-    plane::GridSolver solver(problem, 50);
-    solver.advance_to(1, {});
-    return solver.potency();
+    const auto solver = plane::grid_solver(problem, 50);
+    solver->advance_to(1, {});
+    return solver->potency();
   };
   const auto paper = friction::Closure::paper, consistent = friction::Closure::consistent;
   const double by_paper = loops(friction::viscous(0.5, paper));
@@ -81,10 +78,11 @@ TEST(PlaneAveraged, CoefficientAtAPositionMultipliesTheForce) {
     Problem whole = rings::problem(slip_of_rings()), shared = whole;
     whole.friction = friction::viscous(0.5, closure);
     shared.friction = friction::viscous(1, closure).with("coefficient", {[](double, double) { return 0.5; }, 0.5, 0.5});
-    AveragedSolver a(whole, {30, 1}), b(shared, {30, 1});
-    a.advance_to(1, {});
-    b.advance_to(1, {});
-    EXPECT_NEAR(a.potency() / b.potency(), 1, 1e-12);
+    const auto a = plane::loops_solver(whole, {30, 1});
+    const auto b = plane::loops_solver(shared, {30, 1});
+    a->advance_to(1, {});
+    b->advance_to(1, {});
+    EXPECT_NEAR(a->potency() / b->potency(), 1, 1e-12);
   }
 }
 
@@ -92,9 +90,9 @@ TEST(PlaneAveraged, CoefficientAtAPositionMultipliesTheForce) {
 /// linearly.
 TEST(PlaneAveraged, RingsConverge) {
   const auto run = [](int loops) {
-    AveragedSolver solver(rings::problem(slip_of_rings()), {loops, 1});
-    solver.advance_to(1, {});
-    return std::pair(solver.slip({polar(1.25, 0)}).front(), solver.front(1));
+    const auto solver = plane::loops_solver(rings::problem(slip_of_rings()), {loops, 1});
+    solver->advance_to(1, {});
+    return std::pair(solver->slip({polar(1.25, 0)}).front(), solver->front(1));
   };
   const auto coarse = run(30), middle = run(60), fine = run(480);
   EXPECT_GT(std::fabs(coarse.first - fine.first), 2.8 * std::fabs(middle.first - fine.first));
@@ -105,9 +103,9 @@ TEST(PlaneAveraged, RingsConverge) {
 TEST(PlaneAveraged, EnergyIsKept) {
   double before = HUGE_VAL;
   for (const int loops : {60, 120, 240}) {
-    AveragedSolver solver(rings::problem(slip_of_rings()), {loops, 1});
-    solver.advance_to(1, {});
-    const plane::Energies e = solver.energies();
+    const auto solver = plane::loops_solver(rings::problem(slip_of_rings()), {loops, 1});
+    solver->advance_to(1, {});
+    const plane::Energies e = solver->energies();
     const double error = std::fabs(e.kinetic + e.elastic) / e.kinetic;
     EXPECT_LT(error, 2.5e-3);
     EXPECT_LT(error, before);
@@ -134,19 +132,19 @@ double error_of_velocities(plane::Solver& solver) {
 }
 
 TEST(PlaneAveraged, VelocitiesAreRatesOfTheSlip) {
-  AveragedSolver loops(rings::problem(slip_of_rings()), {120, 1});
-  EXPECT_LT(error_of_velocities(loops), 0.013);
-  plane::GridSolver grid(rings::problem(slip_of_rings()), 60);
-  EXPECT_LT(error_of_velocities(grid), 0.02);
+  const auto loops = plane::loops_solver(rings::problem(slip_of_rings()), {120, 1});
+  EXPECT_LT(error_of_velocities(*loops), 0.013);
+  const auto grid = plane::grid_solver(rings::problem(slip_of_rings()), 60);
+  EXPECT_LT(error_of_velocities(*grid), 0.02);
 }
 
 /// A force supplies the energy that the rings gain.
 TEST(PlaneAveraged, AForceSuppliesItsWork) {
   Problem problem = rings::problem(slip_of_rings());
   problem.forcing = [](double, double, double) { return 0.8; };
-  AveragedSolver solver(problem, {120, 1});
-  solver.advance_to(0.7, {});
-  const plane::Energies e = solver.energies();
+  const auto solver = plane::loops_solver(problem, {120, 1});
+  solver->advance_to(0.7, {});
+  const plane::Energies e = solver->energies();
   EXPECT_GT(e.supplied, 0.3 * e.kinetic);
   EXPECT_NEAR((e.kinetic + e.elastic) / e.supplied, 1, 5e-3);
 }
@@ -155,42 +153,45 @@ TEST(PlaneAveraged, AForceSuppliesItsWork) {
 TEST(PlaneAveraged, FrictionOnOneSideAgreesWithEveryLine) {
   Problem problem = rings::problem(slip_of_rings());
   problem.friction = friction::viscous(1).with("coefficient", {rings::friction_on_one_side, 0, 2});
-  AveragedSolver solver(problem, {60, 64});
-  solver.advance_to(1, {});
+  const auto solver = plane::loops_solver(problem, {60, 64});
+  solver->advance_to(1, {});
   const std::vector<double> slip =
-      solver.slip({polar(1.6, 90), polar(1.6, 0), polar(1.6, -90), polar(2.2, 0), polar(2.2, -90)});
+      solver->slip({polar(1.6, 90), polar(1.6, 0), polar(1.6, -90), polar(2.2, 0), polar(2.2, -90)});
   const std::vector<double> direct = {0.17662, 0.23793, 0.30931, 0.17312, 0.2655};
   for (std::size_t i = 0; i < slip.size(); ++i) EXPECT_NEAR(slip[i] / direct[i], 1, 0.02) << i;
-  EXPECT_NEAR(solver.potency() / 3.1787, 1, 0.01);
+  EXPECT_NEAR(solver->potency() / 3.1787, 1, 0.01);
 }
 
 /// Directions do not matter to a problem without any: 48 angles give the rings.
 TEST(PlaneAveraged, AnglesGiveTheRings) {
-  AveragedSolver ring(rings::problem(slip_of_rings()), {20, 1}), plane(rings::problem(slip_of_rings()), {20, 48});
-  ring.advance_to(0.5, {});
-  plane.advance_to(0.5, {});
-  EXPECT_NEAR(plane.front(1) / ring.front(1), 1, 2e-4);
-  EXPECT_NEAR(plane.potency() / ring.potency(), 1, 2e-3);
+  const auto ring = plane::loops_solver(rings::problem(slip_of_rings()), {20, 1});
+  const auto plane = plane::loops_solver(rings::problem(slip_of_rings()), {20, 48});
+  ring->advance_to(0.5, {});
+  plane->advance_to(0.5, {});
+  EXPECT_NEAR(plane->front(1) / ring->front(1), 1, 2e-4);
+  EXPECT_NEAR(plane->potency() / ring->potency(), 1, 2e-3);
 }
 
 TEST(PlaneAveraged, ResumesToTheSameBits) {
   Problem problem = rings::problem(slip_of_rings());
   problem.friction = friction::viscous(1).with("coefficient", {rings::friction_on_one_side, 0, 2});
-  AveragedSolver whole(problem, {20, 32}), part(problem, {20, 32}), resumed(problem, {20, 32});
-  whole.advance_to(0.5, {});
-  part.advance_to(0.5, [] { return true; });  // one step
-  EXPECT_LT(part.time(), 0.5);
-  restore(resumed, saved(part));
-  EXPECT_TRUE(resumed.advance_to(0.5, {}));
-  EXPECT_EQ(resumed.steps(), whole.steps());
-  EXPECT_EQ(saved(resumed), saved(whole));
-  AveragedSolver other(problem, {10, 32});
-  EXPECT_THROW(restore(other, saved(part)), InputError);
+  const auto whole = plane::loops_solver(problem, {20, 32});
+  const auto part = plane::loops_solver(problem, {20, 32});
+  const auto resumed = plane::loops_solver(problem, {20, 32});
+  whole->advance_to(0.5, {});
+  part->advance_to(0.5, [] { return true; });  // one step
+  EXPECT_LT(part->time(), 0.5);
+  restore(*resumed, saved(*part));
+  EXPECT_TRUE(resumed->advance_to(0.5, {}));
+  EXPECT_EQ(resumed->steps(), whole->steps());
+  EXPECT_EQ(saved(*resumed), saved(*whole));
+  const auto other = plane::loops_solver(problem, {10, 32});
+  EXPECT_THROW(restore(*other, saved(*part)), InputError);
 }
 
 std::string loops_message_of(const Problem& problem) {
   try {
-    const AveragedSolver solver(problem, {20, 16});
+    const auto solver = plane::loops_solver(problem, {20, 16});
   } catch (const InputError& error) {
     return error.what();
   }
@@ -214,26 +215,26 @@ TEST(PlaneAveraged, RefusesLinesThatAreNotStarShaped) {
 }
 
 TEST(PlaneAveraged, RunsWithTheFewestCells) {
-  AveragedSolver least(rings::problem(slip_of_rings()), {4, 8});
-  least.advance_to(0.1, {});
-  EXPECT_GT(least.slip({polar(2.02, 0)}).front(), 0);
+  const auto least = plane::loops_solver(rings::problem(slip_of_rings()), {4, 8});
+  least->advance_to(0.1, {});
+  EXPECT_GT(least->slip({polar(2.02, 0)}).front(), 0);
 }
 
 /// Friction takes the elastic energy that the lines release, and no more.
 TEST(PlaneAveraged, StrongFrictionKeepsTheBudget) {
   Problem problem = rings::problem(slip_of_rings());
   problem.friction = friction::viscous(10);
-  AveragedSolver solver(problem, {60, 1});
-  solver.advance_to(1, {});
-  const plane::Energies e = solver.energies();
+  const auto solver = plane::loops_solver(problem, {60, 1});
+  solver->advance_to(1, {});
+  const plane::Energies e = solver->energies();
   EXPECT_NEAR(e.dissipated / -e.elastic, 1, 0.05);
 }
 
 TEST(PlaneAveraged, StopsWhereFrictionTakesEnergyFromNothing) {
   Problem problem = rings::problem(slip_of_rings());
   problem.friction = friction::viscous(1000);
-  AveragedSolver solver(problem, {60, 1});
-  EXPECT_THROW(solver.advance_to(1, {}), NumericsError);
+  const auto solver = plane::loops_solver(problem, {60, 1});
+  EXPECT_THROW(solver->advance_to(1, {}), NumericsError);
 }
 
 TEST(PlaneAveraged, RefusesStrengthAtRest) {
@@ -245,15 +246,15 @@ TEST(PlaneAveraged, RefusesStrengthAtRest) {
 TEST(PlaneAveraged, StopsWhereTheFrontLeavesTheDomain) {
   Problem problem = rings::problem(slip_of_rings());
   problem.right = 2.2;
-  AveragedSolver solver(problem, {20, 16});
-  EXPECT_THROW(solver.advance_to(2, {}), NumericsError);
-  EXPECT_GT(solver.time(), 0.2);
+  const auto solver = plane::loops_solver(problem, {20, 16});
+  EXPECT_THROW(solver->advance_to(2, {}), NumericsError);
+  EXPECT_GT(solver->time(), 0.2);
 }
 
 TEST(PlaneAveraged, RefusesWhatOnlyTheLinesCanDo) {
   const auto key = [](const Problem& p) -> std::string {
     try {
-      const AveragedSolver solver(p, {20, 16});
+      const auto solver = plane::loops_solver(p, {20, 16});
     } catch (const InputError& error) {
       return error.complaint().key;
     }
@@ -276,24 +277,24 @@ TEST(PlaneAveraged, LinesThatShrinkToTheOriginVanish) {
     const double r = std::hypot(x, y);
     return r < 2 ? 8 * std::exp(-r * r) * (1 - std::exp(-10 * (2 - r))) : 0;
   };
-  AveragedSolver solver(p, {.loops = 120, .angles = 1});
-  EXPECT_TRUE(solver.warnings().empty());
-  solver.advance_to(1, {});
-  const std::vector<double> slip = solver.slip({{1, 0}, {1.5, 0}});
+  const auto solver = plane::loops_solver(p, {.loops = 120, .angles = 1});
+  EXPECT_TRUE(solver->warnings().empty());
+  solver->advance_to(1, {});
+  const std::vector<double> slip = solver->slip({{1, 0}, {1.5, 0}});
   EXPECT_NEAR(slip[0] / -0.67859, 1, 0.005);
   EXPECT_NEAR(slip[1] / 0.7403, 1, 0.012);
-  EXPECT_NEAR(solver.front(1) / 2.3076, 1, 0.005);
-  ASSERT_EQ(solver.warnings().size(), 1U);
-  EXPECT_NE(solver.warnings()[0].find("closer to the origin than 0.99"), std::string::npos) << solver.warnings()[0];
-  const auto e = solver.energies();
+  EXPECT_NEAR(solver->front(1) / 2.3076, 1, 0.005);
+  ASSERT_EQ(solver->warnings().size(), 1U);
+  EXPECT_NE(solver->warnings()[0].find("closer to the origin than 0.99"), std::string::npos) << solver->warnings()[0];
+  const auto e = solver->energies();
   EXPECT_GT(e.vanished, 0);
   EXPECT_LT(std::fabs(e.kinetic + e.elastic + e.vanished), 0.01 * e.kinetic);
 
-  AveragedSolver resumed(p, {.loops = 120, .angles = 1});
-  restore(resumed, saved(solver));
-  solver.advance_to(1.2, {});
-  resumed.advance_to(1.2, {});
-  EXPECT_EQ(saved(solver), saved(resumed));
+  const auto resumed = plane::loops_solver(p, {.loops = 120, .angles = 1});
+  restore(*resumed, saved(*solver));
+  solver->advance_to(1.2, {});
+  resumed->advance_to(1.2, {});
+  EXPECT_EQ(saved(*solver), saved(*resumed));
 }
 
 std::string end_of(std::unique_ptr<plane::Solver> solver, double end) {
@@ -313,8 +314,8 @@ TEST(PlaneRun, EndsAtOnceIfFrictionRequiresFarMoreStepsThanWaves) {
   for (const bool on_grid : {false, true}) {
     const auto solver = [&](double C) -> std::unique_ptr<plane::Solver> {
       problem.friction = friction::viscous(C);
-      if (on_grid) return std::make_unique<plane::GridSolver>(problem, 16);
-      return std::make_unique<AveragedSolver>(problem, plane::Resolution{.loops = 4, .angles = 1});
+      if (on_grid) return plane::grid_solver(problem, 16);
+      return plane::loops_solver(problem, {.loops = 4, .angles = 1});
     };
     const std::string text = end_of(solver(1e7), 0.05);
     EXPECT_NE(text.find("t = 0: given up after 0 steps"), std::string::npos) << text;
@@ -329,16 +330,15 @@ TEST(PlaneRun, EndsAtOnceIfFrictionRequiresFarMoreStepsThanWaves) {
 TEST(PlaneRun, LosingNearlyAllEnergyIsAnError) {
   Problem problem = rings::problem(slip_of_rings());
   problem.friction = friction::viscous(1e3);
-  const std::string text =
-      end_of(std::make_unique<AveragedSolver>(problem, plane::Resolution{.loops = 4, .angles = 1}), 0.05);
+  const std::string text = end_of(plane::loops_solver(problem, {.loops = 4, .angles = 1}), 0.05);
   EXPECT_NE(text.find("t = 0.05: the balance of energy lacks 9"), std::string::npos) << text;
 }
 
 /// The two outermost lines would have one distance from the origin if both were taken to have a millionth of the slip.
 TEST(PlaneAveraged, ManyLoopsBeginApart) {
   for (const int loops : {1000, 2000, 5000}) {
-    AveragedSolver solver(rings::problem(slip_of_rings()), {loops, 1});
-    EXPECT_NO_THROW(solver.advance_to(1e-7, {})) << loops;
+    const auto solver = plane::loops_solver(rings::problem(slip_of_rings()), {loops, 1});
+    EXPECT_NO_THROW(solver->advance_to(1e-7, {})) << loops;
   }
 }
 

@@ -1,5 +1,3 @@
-#include "slipfront/plane/direct.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +10,7 @@
 #include "plane/direct/sites.hpp"
 #include "rings.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/averaged.hpp"
+#include "slipfront/plane/solvers.hpp"
 
 namespace slipfront::plane {
 namespace {
@@ -88,12 +86,12 @@ TEST(PlaneDirect, FrictionOnOneSideAgreesWithAnotherProgram) {
   const rings::Slip slip;
   Problem p = rings::problem(slip);
   p.friction = friction::viscous(1).with("coefficient", {rings::friction_on_one_side, 0, 2});
-  DirectSolver solver(p, {.scale = 40, .spacing = 0.25, .threads = 2});
-  solver.advance_to(1, {});
-  const std::vector<double> slips = solver.slip({polar(1.6, 90), polar(1.6, 0), polar(1.6, -90), polar(2, -90)});
+  const auto solver = plane::direct_solver(p, {.scale = 40, .spacing = 0.25, .threads = 2});
+  solver->advance_to(1, {});
+  const std::vector<double> slips = solver->slip({polar(1.6, 90), polar(1.6, 0), polar(1.6, -90), polar(2, -90)});
   const double references[] = {0.17259, 0.23368, 0.30096, 0.49563};
   for (std::size_t i = 0; i < slips.size(); ++i) EXPECT_NEAR(slips[i] / references[i], 1, 0.015) << i;
-  EXPECT_NEAR(solver.potency() / 3.1128, 1, 0.01);
+  EXPECT_NEAR(solver->potency() / 3.1128, 1, 0.01);
 }
 
 // The plane has 26 lines, and a part of a line at the held region that the averages do not know.
@@ -105,14 +103,14 @@ TEST(PlaneDirect, AgreesWithTheAverages) {
   p.friction = friction::viscous(1).with("coefficient",
                                          {[](double x, double) { return 0.5 + 0.3 * std::tanh(x / 0.2); }, 0.2, 0.8});
   p.contact = [](double x, double y) { return 1 + 0.15 * std::exp(-((x - 1.7) * (x - 1.7) + y * y) / 0.1); };
-  AveragedSolver averaged(p, {.loops = 60, .angles = 64});
-  DirectSolver direct(p, {.scale = 60, .threads = 2});
-  averaged.advance_to(0.6, {});
-  direct.advance_to(0.6, {});
-  EXPECT_NEAR(direct.potency() / averaged.potency(), 1, 0.05);
-  EXPECT_NEAR(direct.front(1) / averaged.front(1), 1, 0.04);
+  const auto averaged = plane::loops_solver(p, {.loops = 60, .angles = 64});
+  const auto direct = plane::direct_solver(p, {.scale = 60, .threads = 2});
+  averaged->advance_to(0.6, {});
+  direct->advance_to(0.6, {});
+  EXPECT_NEAR(direct->potency() / averaged->potency(), 1, 0.05);
+  EXPECT_NEAR(direct->front(1) / averaged->front(1), 1, 0.04);
   const std::vector<Point> points = {polar(1.6, 0), polar(1.7, 90), polar(1.7, 180), polar(1.9, 45)};
-  const std::vector<double> a = averaged.slip(points), d = direct.slip(points);
+  const std::vector<double> a = averaged->slip(points), d = direct->slip(points);
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(d[i], a[i], 0.02) << i;
 }
 
@@ -130,9 +128,9 @@ Problem mixed() {
 
 /// The error of the balance of energy at t = 0.5, over the dissipated energy.
 double imbalance(const Problem& p, double spacing) {
-  DirectSolver solver(p, {.scale = 20, .spacing = spacing, .threads = 2});
-  solver.advance_to(0.5, {});
-  const Energies e = solver.energies();
+  const auto solver = plane::direct_solver(p, {.scale = 20, .spacing = spacing, .threads = 2});
+  solver->advance_to(0.5, {});
+  const Energies e = solver->energies();
   EXPECT_GT(e.dissipated, 0);
   return std::fabs(e.kinetic + e.elastic + e.dissipated - e.supplied) / e.dissipated;
 }
@@ -149,25 +147,25 @@ TEST(PlaneDirect, CoulombFrictionHoldsAndRubs) {
   p.forcing = {};
   p.friction = friction::coulomb(0.2);
   EXPECT_LT(imbalance(p, 0.2), 0.02);
-  DirectSolver solver(p, {.scale = 20});
-  solver.advance_to(0.5, {});
-  EXPECT_EQ(solver.slip({{1.45, 1.45}})[0], 0);
+  const auto solver = plane::direct_solver(p, {.scale = 20});
+  solver->advance_to(0.5, {});
+  EXPECT_EQ(solver->slip({{1.45, 1.45}})[0], 0);
 }
 
 TEST(PlaneDirect, ResumesToTheSameBitsWithAnyThreads) {
-  DirectSolver whole(mixed(), {.scale = 20, .threads = 1});
-  for (const double time : {0.2, 0.4}) whole.advance_to(time, {});
-  DirectSolver first(mixed(), {.scale = 20, .threads = 2});
-  first.advance_to(0.2, {});
+  const auto whole = plane::direct_solver(mixed(), {.scale = 20, .threads = 1});
+  for (const double time : {0.2, 0.4}) whole->advance_to(time, {});
+  const auto first = plane::direct_solver(mixed(), {.scale = 20, .threads = 2});
+  first->advance_to(0.2, {});
   int steps = 0;
-  EXPECT_FALSE(first.advance_to(0.4, [&] { return ++steps == 3; }));
-  DirectSolver second(mixed(), {.scale = 20, .threads = 3});
-  restore(second, saved(first));
-  EXPECT_EQ(second.steps(), first.steps());
-  second.advance_to(0.4, {});
-  EXPECT_EQ(saved(second), saved(whole));
-  EXPECT_EQ(second.potency(), whole.potency());
-  EXPECT_EQ(second.energies().kinetic, whole.energies().kinetic);
+  EXPECT_FALSE(first->advance_to(0.4, [&] { return ++steps == 3; }));
+  const auto second = plane::direct_solver(mixed(), {.scale = 20, .threads = 3});
+  restore(*second, saved(*first));
+  EXPECT_EQ(second->steps(), first->steps());
+  second->advance_to(0.4, {});
+  EXPECT_EQ(saved(*second), saved(*whole));
+  EXPECT_EQ(second->potency(), whole->potency());
+  EXPECT_EQ(second->energies().kinetic, whole->energies().kinetic);
 }
 
 TEST(PlaneDirect, AMirroredProblemHasMirroredResults) {
@@ -175,11 +173,12 @@ TEST(PlaneDirect, AMirroredProblemHasMirroredResults) {
   const Problem given = mixed();
   mirrored.friction = given.friction.with("coefficient", {[](double x, double) { return 1 - x / 3; }, 0.5, 1.5});
   mirrored.forcing = [f = given.forcing](double x, double y, double t) { return f(-x, y, t); };
-  DirectSolver a(given, {.scale = 20}), b(mirrored, {.scale = 20});
-  a.advance_to(0.3, {});
-  b.advance_to(0.3, {});
-  EXPECT_NEAR(a.slip({{0.4, 0.2}})[0], b.slip({{-0.4, 0.2}})[0], 1e-9);
-  EXPECT_NEAR(a.potency(), b.potency(), 1e-9);
+  const auto a = plane::direct_solver(given, {.scale = 20});
+  const auto b = plane::direct_solver(mirrored, {.scale = 20});
+  a->advance_to(0.3, {});
+  b->advance_to(0.3, {});
+  EXPECT_NEAR(a->slip({{0.4, 0.2}})[0], b->slip({{-0.4, 0.2}})[0], 1e-9);
+  EXPECT_NEAR(a->potency(), b->potency(), 1e-9);
 }
 
 /// A law whose positions stick.
@@ -200,18 +199,18 @@ Problem bump() {
 TEST(PlaneDirect, AStaticLoadHoldsTheStartExactly) {
   Problem p = bump();
   p.hold = true;
-  DirectSolver held(p, {.scale = 20});
-  held.advance_to(1, {});
-  EXPECT_NEAR(held.potency_rate(), 0, 1e-90);
-  EXPECT_NEAR(held.potency(), 0, 1e-13);
+  const auto held = plane::direct_solver(p, {.scale = 20});
+  held->advance_to(1, {});
+  EXPECT_NEAR(held->potency_rate(), 0, 1e-90);
+  EXPECT_NEAR(held->potency(), 0, 1e-13);
   p.nucleation = Nucleation{.x = 0.5, .y = 0, .radius = 0.3, .time = 0.5};
-  DirectSolver released(p, {.scale = 20});
-  released.advance_to(0.5, {});
-  EXPECT_NEAR(released.potency(), 0, 1e-13);
-  released.advance_to(0.8, {});
-  EXPECT_GT(std::fabs(released.potency()), 1e-3);
-  EXPECT_NEAR(released.slip({{-1.3, 0}})[0], 0, 1e-9);  // 1.5 away from the patch, 0.3 later
-  const Energies e = released.energies();
+  const auto released = plane::direct_solver(p, {.scale = 20});
+  released->advance_to(0.5, {});
+  EXPECT_NEAR(released->potency(), 0, 1e-13);
+  released->advance_to(0.8, {});
+  EXPECT_GT(std::fabs(released->potency()), 1e-3);
+  EXPECT_NEAR(released->slip({{-1.3, 0}})[0], 0, 1e-9);  // 1.5 away from the patch, 0.3 later
+  const Energies e = released->energies();
   EXPECT_NEAR(e.kinetic + e.elastic, e.supplied, 0.02 * e.kinetic);
 }
 
@@ -221,26 +220,27 @@ TEST(PlaneDirect, StrengthHoldsTheStartUntilNucleation) {
   const double unbalanced = largest_unbalanced_force(p, options, 30, 30);
   EXPECT_GT(unbalanced, 0.5);
   p.friction = slip_weakening(100 * unbalanced, 0, 0.1);
-  DirectSolver held(p, options);
-  held.advance_to(0.5, {});
-  EXPECT_EQ(held.potency_rate(), 0);
+  const auto held = plane::direct_solver(p, options);
+  held->advance_to(0.5, {});
+  EXPECT_EQ(held->potency_rate(), 0);
   p.nucleation = Nucleation{.x = 0.3, .y = 0, .radius = 0.2, .time = 0.1};
-  DirectSolver released(p, options);
-  released.advance_to(0.3, {});
-  EXPECT_GT(std::fabs(released.slip({{0.3, 0}})[0]), 1e-3);  // friction acts outside of the patch only
-  EXPECT_EQ(released.slip({{-0.3, 0}})[0], 0);
-  EXPECT_EQ(released.energies().dissipated, 0);
+  const auto released = plane::direct_solver(p, options);
+  released->advance_to(0.3, {});
+  EXPECT_GT(std::fabs(released->slip({{0.3, 0}})[0]), 1e-3);  // friction acts outside of the patch only
+  EXPECT_EQ(released->slip({{-0.3, 0}})[0], 0);
+  EXPECT_EQ(released->energies().dissipated, 0);
   p.friction = slip_weakening(2 * unbalanced, 0.05, 0.5);
   p.nucleation = Nucleation{.x = 0.3, .y = 0, .radius = 0.3, .time = 0};
-  DirectSolver whole(p, {.scale = 20, .spacing = 0.2}), first(p, {.scale = 20, .spacing = 0.2}),
-      second(p, {.scale = 20, .spacing = 0.2, .threads = 2});
-  whole.advance_to(0.7, {});
+  const auto whole = plane::direct_solver(p, {.scale = 20, .spacing = 0.2});
+  const auto first = plane::direct_solver(p, {.scale = 20, .spacing = 0.2});
+  const auto second = plane::direct_solver(p, {.scale = 20, .spacing = 0.2, .threads = 2});
+  whole->advance_to(0.7, {});
   int steps = 0;
-  EXPECT_FALSE(first.advance_to(0.7, [&] { return ++steps == 40; }));
-  restore(second, saved(first));
-  second.advance_to(0.7, {});
-  EXPECT_EQ(saved(second), saved(whole));
-  const Energies e = whole.energies();
+  EXPECT_FALSE(first->advance_to(0.7, [&] { return ++steps == 40; }));
+  restore(*second, saved(*first));
+  second->advance_to(0.7, {});
+  EXPECT_EQ(saved(*second), saved(*whole));
+  const Energies e = whole->energies();
   EXPECT_GT(e.dissipated, 0);
   EXPECT_NEAR(e.kinetic + e.elastic + e.dissipated, 0, 0.05 * (e.kinetic + e.dissipated));
 }
@@ -254,9 +254,9 @@ double left_behind(Edges edges, double spacing) {
   p.contact = [](double, double) { return 0.01; };
   p.forcing = [](double x, double y, double t) { return 5 * std::exp(-2 * (x * x + y * y) - 4 * (t - 2) * (t - 2)); };
   p.edges = edges;
-  DirectSolver solver(p, {.scale = 1, .spacing = spacing});
-  solver.advance_to(14, {});
-  const Energies e = solver.energies();
+  const auto solver = plane::direct_solver(p, {.scale = 1, .spacing = spacing});
+  solver->advance_to(14, {});
+  const Energies e = solver->energies();
   EXPECT_NEAR((e.kinetic + e.elastic + e.radiated) / e.supplied, 1, 0.02) << spacing;
   return (e.kinetic + e.elastic) / e.supplied;
 }
@@ -282,11 +282,11 @@ double reflected(bool along_y) {
     return std::exp(-4 * across * across - 4 * (t - 1.5) * (t - 1.5));
   };
   p.edges = Edges::absorbing;
-  DirectSolver solver(p, {.scale = 1, .spacing = 0.0005});
+  const auto solver = plane::direct_solver(p, {.scale = 1, .spacing = 0.0005});
   double sent = 0, returned = 0;
   for (const double time : {2.0, 2.5, 3.0, 5.6, 6.0, 6.4, 6.8}) {
-    solver.advance_to(time, {});
-    const plane::Field field = along_y ? solver.field(7, 20) : solver.field(20, 7);
+    solver->advance_to(time, {});
+    const plane::Field field = along_y ? solver->field(7, 20) : solver->field(20, 7);
     for (int i = 0; i < 20; ++i) {
       double& most = time < 4 ? sent : returned;
       most = std::fmax(most, std::fabs(field.velocity[static_cast<std::size_t>(along_y ? 7 * i + 3 : 60 + i)]));
@@ -301,14 +301,14 @@ TEST(PlaneDirect, EdgesHaveTheImpedanceOfTheWave) {
 
 /// Between two steps, slip and velocity are those of a constant acceleration.
 TEST(PlaneDirect, ResultsAreSmoothBetweenSteps) {
-  DirectSolver solver(mixed(), {.scale = 20});
+  const auto solver = plane::direct_solver(mixed(), {.scale = 20});
   const std::vector<Point> points{{0.2, 0.1}, {-0.4, 0.3}};
   std::vector<double> slip[3], velocity[3];
   constexpr double apart = 2e-4;  // a step is 2e-2
   for (int i = 0; i < 3; ++i) {
-    solver.advance_to(0.5 + apart * (i - 1), {});
-    slip[i] = solver.slip(points);
-    velocity[i] = solver.velocity(points);
+    solver->advance_to(0.5 + apart * (i - 1), {});
+    slip[i] = solver->slip(points);
+    velocity[i] = solver->velocity(points);
   }
   for (std::size_t k = 0; k < points.size(); ++k) {
     EXPECT_NEAR((slip[2][k] - slip[0][k]) / (2 * apart) / velocity[1][k], 1, 1e-4);
@@ -320,18 +320,16 @@ TEST(PlaneDirect, FixedEdgesDoNotSlip) {
   Problem p = mixed();
   p.slip = [](double x, double) { return 1.5 + x; };
   p.edges = Edges::fixed;
-  DirectSolver solver(p, {.scale = 20});
-  solver.advance_to(0.5, {});
-  const Field field = solver.field(60, 60);
+  const auto solver = plane::direct_solver(p, {.scale = 20});
+  solver->advance_to(0.5, {});
+  const Field field = solver->field(60, 60);
   EXPECT_GT(std::fabs(field.slip[30 * 60 + 30]), 1e-3);
-  EXPECT_EQ(solver.velocity({{0, 0}}).size(), 1u);
-  DirectSolver free(mixed(), {.scale = 20});
-  EXPECT_EQ(solver.sites(), free.sites());
+  EXPECT_EQ(solver->velocity({{0, 0}}).size(), 1u);
 }
 
 std::string message_of(const Problem& problem, const DirectOptions& options) {
   try {
-    DirectSolver(problem, options);
+    plane::direct_solver(problem, options);
   } catch (const InputError& error) {
     return error.what();
   }

@@ -11,9 +11,9 @@
 #include "answer.hpp"
 #include "foundation/clock.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/direct.hpp"
 #include "slipfront/plane/quantities.hpp"
 #include "slipfront/plane/run.hpp"
+#include "slipfront/plane/solvers.hpp"
 #include "slipfront/scenario/problem.hpp"
 
 namespace slipfront::explorer {

@@ -12,7 +12,7 @@
 #include "plane/direct/motion.hpp"
 #include "plane/direct/sites.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/direct.hpp"
+#include "slipfront/plane/solvers.hpp"
 
 namespace slipfront::plane {
 namespace {
@@ -66,40 +66,134 @@ std::vector<double> with_ghosts(const std::vector<double>& values, const Sites& 
   return array;
 }
 
-}  // namespace
-
-struct DirectSolver::Parts {
-  Problem problem;
-  const Ranks& ranks;
-  Sites sites;
-  Motion motion;
-  Look look;
-  std::vector<double> start;  ///< u at t = 0
-  double half_box = 0;        ///< half the width of the squares over which slip at a point is averaged
-  Stepper stepper;
-  double elastic_at_start = 0;
-  double time = 0;
-
-  Parts(const Problem& p, const DirectOptions& options)
-      : problem(p),
-        ranks(options.ranks ? *options.ranks : Ranks::single()),
-        sites(made_together(ranks,
-                            [&] {
-                              return make_sites(problem, options.scale, options.spacing,
-                                                {.number = ranks.rank(), .bands = ranks.size()});
-                            })),
-        stepper(problem, sites, options.threads, ranks) {
-    Start lines = made_together(ranks, [&] { return lines_at_rest(problem, sites); });
-    const double density = ranks.largest(lines.largest_density);
-    ranks.together([&] { check_density(density, options); });
-    half_box = std::fmax(2 * pi / std::fmax(density, 1), 1) / sites.scale;
-    start = lines.u;
-    motion = stepper.start(std::move(lines.u));
-    stepper.look_at(motion, 0, look);
-    elastic_at_start = look.elastic;
+class DirectSolver : public Solver {
+ public:
+  DirectSolver(const Problem& p, const DirectOptions& options)
+      : problem_(p),
+        ranks_(options.ranks ? *options.ranks : Ranks::single()),
+        sites_(made_together(ranks_,
+                             [&] {
+                               return make_sites(problem_, options.scale, options.spacing,
+                                                 {.number = ranks_.rank(), .bands = ranks_.size()});
+                             })),
+        stepper_(problem_, sites_, options.threads, ranks_) {
+    Start lines = made_together(ranks_, [&] { return lines_at_rest(problem_, sites_); });
+    const double density = ranks_.largest(lines.largest_density);
+    ranks_.together([&] { check_density(density, options); });
+    half_box_ = std::fmax(2 * pi / std::fmax(density, 1), 1) / sites_.scale;
+    start_ = lines.u;
+    motion_ = stepper_.start(std::move(lines.u));
+    stepper_.look_at(motion_, 0, look_);
+    elastic_at_start_ = look_.elastic;
   }
 
-  /// Some sites are needed from one line to the next.
+  const Problem& problem() const override { return problem_; }
+  double time() const override { return time_; }
+  long steps() const override { return motion_.steps; }
+
+  bool advance_to(double time, const std::function<bool()>& interrupted) override {
+    const bool reached = stepper_.advance(motion_, time, interrupted);
+    time_ = reached ? time : stepper_.time_of(motion_);
+    if (!reached) return false;
+    stepper_.look_at(motion_, time, look_);
+    const double noise =
+        std::fmax(1e-3 * elastic_at_start_, no_energy * static_cast<double>(count()) * sites_.hx * sites_.hy);
+    check_budget(energies(), noise / (sites_.scale * sites_.scale), time,
+                 "a smaller spacing of sites or a larger scale is needed");
+    return true;
+  }
+
+  std::vector<double> slip(const std::vector<Point>& points) const override {
+    return around([this](std::size_t at) { return slip_of(at); }, points);
+  }
+  std::vector<double> velocity(const std::vector<Point>& points) const override {
+    return around([this](std::size_t at) { return velocity_of(at); }, points);
+  }
+
+  Field field(int nx, int ny) const override {
+    return {.time = time(),
+            .nx = nx,
+            .ny = ny,
+            .slip = cells([this](std::size_t at) { return slip_of(at); }, nx, ny),
+            .velocity = cells([this](std::size_t at) { return velocity_of(at); }, nx, ny)};
+  }
+
+  std::vector<Line> lines() const override {
+    if (ranks_.size() == 1) return lines_of(look_.u, sites_);
+    const std::vector<double> u = ranks_.joined_at_first(without_ghosts(look_.u, sites_));
+    if (u.empty()) return {};
+    Sites whole = sites_;
+    whole.first_row = 0;
+    whole.ny = whole.all_rows;
+    return lines_of(with_ghosts(u, whole), whole);
+  }
+
+  double potency() const override {
+    return integral([this](std::size_t at) { return slip_of(at); });
+  }
+  double potency_rate() const override {
+    return integral([this](std::size_t at) { return velocity_of(at); });
+  }
+
+  /// The outermost line is the contour u = pi that is farthest from the origin.
+  double front(double y_scale) const override {
+    double farthest = 0;  // its square
+    for (std::size_t j = 0; j < sites_.ny; ++j)
+      for (std::size_t i = 0; i < sites_.nx; ++i)
+        if (look_.u[sites_.at(i, j)] >= pi)
+          farthest = std::fmax(farthest, sites_.x(i) * sites_.x(i) + y_scale * sites_.y(j) * y_scale * sites_.y(j));
+    return std::sqrt(ranks_.largest(farthest));
+  }
+
+  Energies energies() const override {
+    const double per = 1 / (sites_.scale * sites_.scale);
+    return {.kinetic = per * look_.kinetic,
+            .elastic = per * (look_.elastic - elastic_at_start_),
+            .dissipated = per * look_.dissipated,
+            .supplied = per * look_.supplied,
+            .vanished = 0,
+            .radiated = per * look_.radiated};
+  }
+
+  void archive(Archive& a) override {
+    Motion& m = motion_;
+    a(time_, m.steps);
+    const auto rows = [&](std::vector<double>& values) {
+      a.parts(values, ranks_, sites_.first_row, sites_.ny, sites_.all_rows);
+    };
+    for (auto* values : {&m.u, &m.old, &m.v_old}) {
+      std::vector<double> of_sites = without_ghosts(*values, sites_);
+      rows(of_sites);
+      if (a.reads()) *values = with_ghosts(of_sites, sites_);
+    }
+    std::vector<double> states = stepper_.friction().states();
+    rows(states);
+    for (const auto part : {&RowWork::dissipated, &RowWork::supplied, &RowWork::radiated}) {
+      std::vector<double> of_row;
+      of_row.reserve(m.work.size());
+      for (const RowWork& work : m.work) of_row.push_back(work.*part);
+      rows(of_row);
+      for (std::size_t j = 0; j < m.work.size(); ++j) m.work[j].*part = of_row[j];
+    }
+    if (!a.reads()) return;
+    stepper_.friction().set_states(states);
+    for (auto* values : {&m.u, &m.old}) stepper_.fill_ghosts(*values);
+    stepper_.look_at(m, time_, look_);
+  }
+
+ private:
+  Problem problem_;
+  const Ranks& ranks_;
+  Sites sites_;
+  Motion motion_;
+  Look look_;
+  std::vector<double> start_;  ///< u at t = 0
+  double half_box_ = 0;        ///< half the width of the squares over which slip at a point is averaged
+  Stepper stepper_;
+  double elastic_at_start_ = 0;
+  double time_ = 0;
+
+  /// Some sites_ are needed from one line to the next.
   static void check_density(double density, const DirectOptions& options) {
     constexpr double fewest = 3.5;
     if (!(2 * pi / density >= fewest * options.spacing))
@@ -110,29 +204,29 @@ struct DirectSolver::Parts {
   }
 
   /// Slip and slip velocity of a site.
-  double slip(std::size_t at) const { return (look.u[at] - start[at]) / sites.scale; }
-  double velocity(std::size_t at) const { return look.velocity[at]; }
+  double slip_of(std::size_t at) const { return (look_.u[at] - start_[at]) / sites_.scale; }
+  double velocity_of(std::size_t at) const { return look_.velocity[at]; }
 
   Range columns(double from, double to) const {
-    return sites_between(from, to, sites.left, sites.hx / sites.scale, sites.nx);
+    return sites_between(from, to, sites_.left, sites_.hx / sites_.scale, sites_.nx);
   }
   Range rows(double from, double to) const {
-    return sites_between(from, to, sites.bottom, sites.hy / sites.scale, sites.all_rows);
+    return sites_between(from, to, sites_.bottom, sites_.hy / sites_.scale, sites_.all_rows);
   }
-  std::size_t count() const { return sites.nx * sites.all_rows; }
+  std::size_t count() const { return sites_.nx * sites_.all_rows; }
 
   /// (all) Sums over parts of the rows. Those of row j of the domain begin at the index j * columns.size().
   template <class Of>
   std::vector<double> sums(const Of& of, const std::vector<Range>& columns) const {
     std::vector<double> mine;
-    mine.reserve(sites.ny * columns.size());
-    for (std::size_t j = 0; j < sites.ny; ++j)
+    mine.reserve(sites_.ny * columns.size());
+    for (std::size_t j = 0; j < sites_.ny; ++j)
       for (const Range& range : columns) {
         double sum = 0;
-        for (std::size_t i = range.first; i < range.last; ++i) sum += of(sites.at(i, j));
+        for (std::size_t i = range.first; i < range.last; ++i) sum += of(sites_.at(i, j));
         mine.push_back(sum);
       }
-    return ranks.joined(mine);
+    return ranks_.joined(mine);
   }
   /// The mean over a part of the plane, from `sums` of which it is the part `k` of `parts`.
   static double mean(const std::vector<double>& sums, std::size_t k, std::size_t parts, const Range& columns,
@@ -146,12 +240,13 @@ struct DirectSolver::Parts {
   std::vector<double> around(const Of& of, const std::vector<Point>& points) const {
     std::vector<Range> of_points;
     of_points.reserve(points.size());
-    for (const Point& at : points) of_points.push_back(columns(at.x - half_box, at.x + half_box));
+    for (const Point& at : points) of_points.push_back(columns(at.x - half_box_, at.x + half_box_));
     const std::vector<double> all = sums(of, of_points);
     std::vector<double> means;
     means.reserve(points.size());
     for (std::size_t k = 0; k < points.size(); ++k)
-      means.push_back(mean(all, k, points.size(), of_points[k], rows(points[k].y - half_box, points[k].y + half_box)));
+      means.push_back(
+          mean(all, k, points.size(), of_points[k], rows(points[k].y - half_box_, points[k].y + half_box_)));
     return means;
   }
   /// (all) Means over the cells of a grid.
@@ -163,12 +258,13 @@ struct DirectSolver::Parts {
     of_cells.reserve(count);
     for (int i = 0; i < nx; ++i)
       of_cells.push_back(
-          columns(edge(problem.left, problem.right, i, nx), edge(problem.left, problem.right, i + 1, nx)));
+          columns(edge(problem_.left, problem_.right, i, nx), edge(problem_.left, problem_.right, i + 1, nx)));
     const std::vector<double> all = sums(of, of_cells);
     std::vector<double> means;
     means.reserve(count * static_cast<std::size_t>(ny));
     for (int j = 0; j < ny; ++j) {
-      const Range row = rows(edge(problem.bottom, problem.top, j, ny), edge(problem.bottom, problem.top, j + 1, ny));
+      const Range row =
+          rows(edge(problem_.bottom, problem_.top, j, ny), edge(problem_.bottom, problem_.top, j + 1, ny));
       for (std::size_t i = 0; i < count; ++i) means.push_back(mean(all, i, count, of_cells[i], row));
     }
     return means;
@@ -177,10 +273,12 @@ struct DirectSolver::Parts {
   template <class Of>
   double integral(const Of& of) const {
     double sum = 0;
-    for (const double row : sums(of, {{0, sites.nx}})) sum += row;
-    return sum * sites.hx * sites.hy / (sites.scale * sites.scale);
+    for (const double row : sums(of, {{0, sites_.nx}})) sum += row;
+    return sum * sites_.hx * sites_.hy / (sites_.scale * sites_.scale);
   }
 };
+
+}  // namespace
 
 double memory_of_direct(const Problem& problem, const DirectOptions& options) {
   constexpr double arrays =
@@ -215,111 +313,9 @@ double largest_unbalanced_force(const Problem& problem, const DirectOptions& opt
   return largest * options.scale;
 }
 
-DirectSolver::DirectSolver(const Problem& problem, const DirectOptions& options) {
+std::unique_ptr<Solver> direct_solver(const Problem& problem, const DirectOptions& options) {
   check(problem);
-  parts_ = std::make_unique<Parts>(problem, options);
-}
-DirectSolver::~DirectSolver() = default;
-
-const Problem& DirectSolver::problem() const { return parts_->problem; }
-double DirectSolver::time() const { return parts_->time; }
-long DirectSolver::steps() const { return parts_->motion.steps; }
-std::size_t DirectSolver::sites() const { return parts_->count(); }
-
-bool DirectSolver::advance_to(double time, const std::function<bool()>& interrupted) {
-  Parts& p = *parts_;
-  const bool reached = p.stepper.advance(p.motion, time, interrupted);
-  p.time = reached ? time : p.stepper.time_of(p.motion);
-  if (!reached) return false;
-  p.stepper.look_at(p.motion, time, p.look);
-  const double noise =
-      std::fmax(1e-3 * p.elastic_at_start, no_energy * static_cast<double>(sites()) * p.sites.hx * p.sites.hy);
-  check_budget(energies(), noise / (p.sites.scale * p.sites.scale), time,
-               "a smaller spacing of sites or a larger scale is needed");
-  return true;
-}
-
-std::vector<double> DirectSolver::slip(const std::vector<Point>& points) const {
-  return parts_->around([this](std::size_t at) { return parts_->slip(at); }, points);
-}
-std::vector<double> DirectSolver::velocity(const std::vector<Point>& points) const {
-  return parts_->around([this](std::size_t at) { return parts_->velocity(at); }, points);
-}
-
-Field DirectSolver::field(int nx, int ny) const {
-  const Parts& p = *parts_;
-  return {.time = time(),
-          .nx = nx,
-          .ny = ny,
-          .slip = p.cells([&p](std::size_t at) { return p.slip(at); }, nx, ny),
-          .velocity = p.cells([&p](std::size_t at) { return p.velocity(at); }, nx, ny)};
-}
-
-std::vector<Line> DirectSolver::lines() const {
-  const Parts& p = *parts_;
-  if (p.ranks.size() == 1) return lines_of(p.look.u, p.sites);
-  const std::vector<double> u = p.ranks.joined_at_first(without_ghosts(p.look.u, p.sites));
-  if (u.empty()) return {};
-  Sites whole = p.sites;
-  whole.first_row = 0;
-  whole.ny = whole.all_rows;
-  return lines_of(with_ghosts(u, whole), whole);
-}
-
-double DirectSolver::potency() const {
-  return parts_->integral([this](std::size_t at) { return parts_->slip(at); });
-}
-double DirectSolver::potency_rate() const {
-  return parts_->integral([this](std::size_t at) { return parts_->velocity(at); });
-}
-
-/// The outermost line is the contour u = pi that is farthest from the origin.
-double DirectSolver::front(double y_scale) const {
-  const Parts& p = *parts_;
-  double farthest = 0;  // its square
-  for (std::size_t j = 0; j < p.sites.ny; ++j)
-    for (std::size_t i = 0; i < p.sites.nx; ++i)
-      if (p.look.u[p.sites.at(i, j)] >= pi)
-        farthest = std::fmax(farthest, p.sites.x(i) * p.sites.x(i) + y_scale * p.sites.y(j) * y_scale * p.sites.y(j));
-  return std::sqrt(p.ranks.largest(farthest));
-}
-
-Energies DirectSolver::energies() const {
-  const Parts& p = *parts_;
-  const double per = 1 / (p.sites.scale * p.sites.scale);
-  return {.kinetic = per * p.look.kinetic,
-          .elastic = per * (p.look.elastic - p.elastic_at_start),
-          .dissipated = per * p.look.dissipated,
-          .supplied = per * p.look.supplied,
-          .vanished = 0,
-          .radiated = per * p.look.radiated};
-}
-
-void DirectSolver::archive(Archive& a) {
-  Parts& p = *parts_;
-  Motion& m = p.motion;
-  a(p.time, m.steps);
-  const auto rows = [&](std::vector<double>& values) {
-    a.parts(values, p.ranks, p.sites.first_row, p.sites.ny, p.sites.all_rows);
-  };
-  for (auto* values : {&m.u, &m.old, &m.v_old}) {
-    std::vector<double> of_sites = without_ghosts(*values, p.sites);
-    rows(of_sites);
-    if (a.reads()) *values = with_ghosts(of_sites, p.sites);
-  }
-  std::vector<double> states = p.stepper.friction().states();
-  rows(states);
-  for (const auto part : {&RowWork::dissipated, &RowWork::supplied, &RowWork::radiated}) {
-    std::vector<double> of_row;
-    of_row.reserve(m.work.size());
-    for (const RowWork& work : m.work) of_row.push_back(work.*part);
-    rows(of_row);
-    for (std::size_t j = 0; j < m.work.size(); ++j) m.work[j].*part = of_row[j];
-  }
-  if (!a.reads()) return;
-  p.stepper.friction().set_states(states);
-  for (auto* values : {&m.u, &m.old}) p.stepper.fill_ghosts(*values);
-  p.stepper.look_at(m, p.time, p.look);
+  return std::make_unique<DirectSolver>(problem, options);
 }
 
 }  // namespace slipfront::plane

@@ -9,7 +9,7 @@
 #include "plane/grid/observe.hpp"
 #include "plane/grid/steps.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/grid.hpp"
+#include "slipfront/plane/solvers.hpp"
 
 namespace slipfront::plane {
 namespace {
@@ -71,159 +71,152 @@ GridMotion at_rest(const Problem& problem, const Cells& cells) {
   return motion;
 }
 
-}  // namespace
-
-struct GridSolver::Parts {
-  Problem problem;
-  Cells cells;
-  GridMotion motion;
-  std::optional<GridSteps> steps;
-  std::vector<double> start;  ///< slip at t = 0
-  double largest = 0;         ///< largest of them
-  double elastic_at_start = 0;
-
-  Parts(const Problem& p, int count)
-      : problem(p), cells(cells_of(problem, count)), motion(at_rest(problem, cells)), start(motion.now.slip) {
-    largest = *std::max_element(start.begin(), start.end());
-    steps.emplace(problem, cells, motion);
-    steps->look();
-    elastic_at_start = energy().elastic;
+class GridSolver : public Solver {
+ public:
+  GridSolver(const Problem& p, int count)
+      : problem_(p), cells_(cells_of(problem_, count)), motion_(at_rest(problem_, cells_)), start_(motion_.now.slip) {
+    largest_ = *std::max_element(start_.begin(), start_.end());
+    steps_.emplace(problem_, cells_, motion_);
+    steps_->look();
+    elastic_at_start_ = energy().elastic;
   }
 
-  GridEnergy energy() const { return plane::energy(motion, steps->equations(), cells); }
+  const Problem& problem() const override { return problem_; }
+  double time() const override { return motion_.time; }
+  long steps() const override { return motion_.steps; }
 
-  double slip(std::size_t cell) const { return std::fmax(motion.now.slip[cell], 0.0) - start[cell]; }
-  double velocity(std::size_t cell) const {
-    return motion.now.slip[cell] > 0 && !steps->walls().held(cell) ? steps->rates().slip[cell] : 0;
+  bool advance_to(double time, const std::function<bool()>& interrupted) override {
+    const auto advance = [&](double end) {
+      while (motion_.time < end) {
+        steps_->take(end);
+        check_state();
+        if (interrupted && interrupted()) break;
+      }
+      return motion_.time >= end;
+    };
+    // A step ends where nucleation begins.
+    const double begin = problem_.nucleation ? problem_.nucleation->time : 0;
+    if (begin > motion_.time && begin < time && !advance(begin)) return false;
+    if (!advance(time)) return false;
+    constexpr double noise = 0.02;  // fraction of the energy at the start, of the error at the front
+    check_budget(energies(), noise * elastic_at_start_, time, "more cells are needed");
+    return true;
+  }
+
+  StepsAhead steps_ahead(double duration) const override { return steps_->ahead(duration); }
+  bool lines_have_met() const override { return motion_.met_at >= 0; }
+
+  std::vector<double> slip(const std::vector<Point>& points) const override {
+    return at(points, [this](std::size_t cell) { return slip_in(cell); });
+  }
+  std::vector<double> velocity(const std::vector<Point>& points) const override {
+    return at(points, [this](std::size_t cell) { return velocity_in(cell); });
+  }
+
+  Field field(int nx, int ny) const override {
+    const Problem& p = problem_;
+    std::vector<Point> centres;
+    centres.reserve(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i)
+        centres.push_back(
+            {p.left + (p.right - p.left) * (i + 0.5) / nx, p.bottom + (p.top - p.bottom) * (j + 0.5) / ny});
+    return {.time = time(), .nx = nx, .ny = ny, .slip = slip(centres), .velocity = velocity(centres)};
+  }
+
+  std::vector<Line> lines() const override { return front_lines(motion_.now.slip, cells_); }
+
+  double potency() const override {
+    return integral([this](std::size_t cell) { return slip_in(cell); });
+  }
+  double potency_rate() const override {
+    return integral([this](std::size_t cell) { return velocity_in(cell); });
+  }
+  double front(double y_scale) const override {
+    return farthest_front(motion_.now.slip, cells_, steps_->walls(), y_scale);
+  }
+
+  Energies energies() const override {
+    const GridEnergy now = energy();
+    return {.kinetic = now.kinetic,
+            .elastic = now.elastic - elastic_at_start_,
+            .dissipated = motion_.dissipated,
+            .supplied = motion_.supplied,
+            .vanished = 0,
+            .radiated = 0};
+  }
+
+  double least_energy() const override { return 1e-4 * elastic_at_start_; }
+
+  std::vector<std::string> warnings() const override {
+    if (motion_.met_at < 0) return {};
+    return {"dislocation lines of different directions have met since t = " + digits(motion_.met_at, 4) +
+            ". In the full equation they pass through each other or vanish in waves. In these averages they vanish, "
+            "and their energy is lost"};
+  }
+
+  void archive(Archive& a) override {
+    GridMotion& m = motion_;
+    GridEquations::Guesses guesses = steps_->guesses();
+    a(m.time, m.power, m.supply, m.dissipated, m.supplied, m.met_at, m.steps);
+    a.fixed(m.now.slip, m.now.action, m.strength, m.states, guesses[0], guesses[1], guesses[2]);
+    if (!a.reads()) return;
+    const GridMotion saved = m;
+    steps_->set_guesses(guesses);
+    steps_->look();  // for observers
+    m = saved;
+  }
+
+ private:
+  Problem problem_;
+  Cells cells_;
+  GridMotion motion_;
+  std::optional<GridSteps> steps_;
+  std::vector<double> start_;  ///< slip at t = 0
+  double largest_ = 0;         ///< largest_ of them
+  double elastic_at_start_ = 0;
+
+  GridEnergy energy() const { return plane::energy(motion_, steps_->equations(), cells_); }
+
+  double slip_in(std::size_t cell) const { return std::fmax(motion_.now.slip[cell], 0.0) - start_[cell]; }
+  double velocity_in(std::size_t cell) const {
+    return motion_.now.slip[cell] > 0 && !steps_->walls().held(cell) ? steps_->rates().slip[cell] : 0;
   }
   template <class Of>
-  std::vector<double> of_cells(const Of& of) const {
-    std::vector<double> values(cells.size(), 0);
-    cells.each([&](std::size_t, std::size_t, std::size_t cell) { values[cell] = of(cell); });
-    return values;
+  std::vector<double> at(const std::vector<Point>& points, const Of& of) const {
+    std::vector<double> values(cells_.size(), 0), at_points;
+    cells_.each([&](std::size_t, std::size_t, std::size_t cell) { values[cell] = of(cell); });
+    at_points.reserve(points.size());
+    for (const Point& point : points) at_points.push_back(value_at(values, cells_, point));
+    return at_points;
   }
   template <class Of>
   double integral(const Of& of) const {
     double sum = 0;
-    cells.each([&](std::size_t, std::size_t, std::size_t cell) { sum += of(cell); });
-    return sum * cells.hx * cells.hy;
+    cells_.each([&](std::size_t, std::size_t, std::size_t cell) { sum += of(cell); });
+    return sum * cells_.hx * cells_.hy;
   }
 
   /// The front must stay inside the domain, because the equations end at its edges.
   void check_state() const {
-    cells.each([&](std::size_t i, std::size_t j, std::size_t cell) {
+    cells_.each([&](std::size_t i, std::size_t j, std::size_t cell) {
       const auto where = [&] {
-        return "t = " + digits(motion.time) + ", x = " + digits(cells.x(i), 4) + ", y = " + digits(cells.y(j), 4) +
+        return "t = " + digits(motion_.time) + ", x = " + digits(cells_.x(i), 4) + ", y = " + digits(cells_.y(j), 4) +
                ": ";
       };
-      if (!std::isfinite(motion.now.slip[cell]) || !std::isfinite(motion.now.action[cell]))
+      if (!std::isfinite(motion_.now.slip[cell]) || !std::isfinite(motion_.now.action[cell]))
         throw NumericsError(where() + "the slip is not finite");
-      if (cells.at_edge(i, j) && start[cell] == 0 && motion.now.slip[cell] > tail * largest)
+      if (cells_.at_edge(i, j) && start_[cell] == 0 && motion_.now.slip[cell] > tail * largest_)
         throw NumericsError(where() + "the front has reached the edge of the domain, where the averaged solver ends");
     });
   }
 };
 
-GridSolver::GridSolver(const Problem& problem, int cells) {
+}  // namespace
+
+std::unique_ptr<Solver> grid_solver(const Problem& problem, int cells) {
   check(problem);
-  parts_ = std::make_unique<Parts>(problem, cells);
-}
-GridSolver::~GridSolver() = default;
-
-const Problem& GridSolver::problem() const { return parts_->problem; }
-double GridSolver::time() const { return parts_->motion.time; }
-long GridSolver::steps() const { return parts_->motion.steps; }
-
-bool GridSolver::advance_to(double time, const std::function<bool()>& interrupted) {
-  Parts& p = *parts_;
-  const auto advance = [&](double end) {
-    while (p.motion.time < end) {
-      p.steps->take(end);
-      p.check_state();
-      if (interrupted && interrupted()) break;
-    }
-    return p.motion.time >= end;
-  };
-  // A step ends where nucleation begins.
-  const double begin = p.problem.nucleation ? p.problem.nucleation->time : 0;
-  if (begin > p.motion.time && begin < time && !advance(begin)) return false;
-  if (!advance(time)) return false;
-  constexpr double noise = 0.02;  // fraction of the energy at the start, of the error at the front
-  check_budget(energies(), noise * p.elastic_at_start, time, "more cells are needed");
-  return true;
-}
-
-StepsAhead GridSolver::steps_ahead(double duration) const { return parts_->steps->ahead(duration); }
-bool GridSolver::lines_have_met() const { return parts_->motion.met_at >= 0; }
-
-std::vector<double> GridSolver::slip(const std::vector<Point>& points) const {
-  const std::vector<double> slip = parts_->of_cells([this](std::size_t cell) { return parts_->slip(cell); });
-  std::vector<double> at_points;
-  at_points.reserve(points.size());
-  for (const Point& at : points) at_points.push_back(value_at(slip, parts_->cells, at));
-  return at_points;
-}
-
-std::vector<double> GridSolver::velocity(const std::vector<Point>& points) const {
-  const std::vector<double> w = parts_->of_cells([this](std::size_t cell) { return parts_->velocity(cell); });
-  std::vector<double> at_points;
-  at_points.reserve(points.size());
-  for (const Point& at : points) at_points.push_back(value_at(w, parts_->cells, at));
-  return at_points;
-}
-
-Field GridSolver::field(int nx, int ny) const {
-  const Problem& p = parts_->problem;
-  std::vector<Point> centres;
-  centres.reserve(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i)
-      centres.push_back({p.left + (p.right - p.left) * (i + 0.5) / nx, p.bottom + (p.top - p.bottom) * (j + 0.5) / ny});
-  return {.time = time(), .nx = nx, .ny = ny, .slip = slip(centres), .velocity = velocity(centres)};
-}
-
-std::vector<Line> GridSolver::lines() const { return front_lines(parts_->motion.now.slip, parts_->cells); }
-
-double GridSolver::potency() const {
-  return parts_->integral([this](std::size_t cell) { return parts_->slip(cell); });
-}
-double GridSolver::potency_rate() const {
-  return parts_->integral([this](std::size_t cell) { return parts_->velocity(cell); });
-}
-double GridSolver::front(double y_scale) const {
-  return farthest_front(parts_->motion.now.slip, parts_->cells, parts_->steps->walls(), y_scale);
-}
-
-Energies GridSolver::energies() const {
-  const GridEnergy now = parts_->energy();
-  return {.kinetic = now.kinetic,
-          .elastic = now.elastic - parts_->elastic_at_start,
-          .dissipated = parts_->motion.dissipated,
-          .supplied = parts_->motion.supplied,
-          .vanished = 0,
-          .radiated = 0};
-}
-
-double GridSolver::least_energy() const { return 1e-4 * parts_->elastic_at_start; }
-
-std::vector<std::string> GridSolver::warnings() const {
-  if (parts_->motion.met_at < 0) return {};
-  return {"dislocation lines of different directions have met since t = " + digits(parts_->motion.met_at, 4) +
-          ". In the full equation they pass through each other or vanish in waves. In these averages they vanish, "
-          "and their energy is lost"};
-}
-
-void GridSolver::archive(Archive& a) {
-  Parts& p = *parts_;
-  GridMotion& m = p.motion;
-  GridEquations::Guesses guesses = p.steps->guesses();
-  a(m.time, m.power, m.supply, m.dissipated, m.supplied, m.met_at, m.steps);
-  a.fixed(m.now.slip, m.now.action, m.strength, m.states, guesses[0], guesses[1], guesses[2]);
-  if (!a.reads()) return;
-  const GridMotion saved = m;
-  p.steps->set_guesses(guesses);
-  p.steps->look();  // for observers
-  m = saved;
+  return std::make_unique<GridSolver>(problem, cells);
 }
 
 }  // namespace slipfront::plane
