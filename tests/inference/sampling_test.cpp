@@ -176,6 +176,25 @@ TEST(Posterior, SamplesEventsWhoseObservationsNeedIt) {
   EXPECT_TRUE(sampled::needs_samples(o));
 }
 
+/// A front is slower than the characteristic velocity by an unknown factor, which exact velocities do not determine.
+TEST(Posterior, SamplesExactVelocitiesIfOneIsThatOfTheFront) {
+  slipfront::catalogue::Observation o = observed_front();
+  EXPECT_FALSE(sampled::needs_samples(o));
+  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.5, 0.5};
+  EXPECT_TRUE(sampled::needs_samples(o));
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  EXPECT_FALSE(sampled::needs_samples(o));
+}
+
+TEST(Posterior, DerivesNoSlipVelocityThatWasNotObserved) {
+  sampled::FaultState state = sampled::unknown_state();
+  state.contact_ratio = 0.01;
+  state.frictionless_slip_velocity = 2;
+  sampled::derive(state, {.speed = 3000, .shear_modulus = 30e9, .poisson_ratio = 0.25}, {});
+  EXPECT_TRUE(std::isnan(state.observed_slip_velocity));
+  EXPECT_TRUE(std::isnan(state.slip_velocity_ratio));
+}
+
 /// A sample with a slower medium can have an observed velocity above c. It is rejected.
 TEST(Posterior, RejectsSamplesFasterThanTheirMedium) {
   slipfront::catalogue::Observation o = observed_front();
