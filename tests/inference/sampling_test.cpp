@@ -180,6 +180,32 @@ TEST(WeightedSamples, SufficeForAQuantityWhoseHeavySamplesAreNearItsMedian) {
   EXPECT_FALSE(samples.suffice_for(&sampled::FaultState::contact_ratio, 1));
 }
 
+TEST(WeightedSamples, AllCountIfTheirWeightsAreEqual) {
+  slipfront::catalogue::Observation o = observed_front();
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.5, 0.5};
+  sampled::Sampler sampler(o, {}, {.samples = 64});
+  const sampled::WeightedSamples samples = sampled::draw_samples(sampler, 64, 64);
+  EXPECT_EQ(samples.accepted.size(), 64u);
+  EXPECT_NEAR(samples.effective, 64, 1e-9);
+}
+
+/// The other observations agree with a small part of this range of velocities. The cells move there.
+TEST(Sampler, FindsTheVelocitiesOfAWideRangeThatAgreeWithTheOthers) {
+  using slipfront::catalogue::Measured;
+  slipfront::catalogue::Observation o;
+  o.rupture_velocity_m_s = Measured{1, 3300};
+  o.slip_velocity_m_s = Measured{0.5, 0.5, Measured::Shape::lognormal, 1.1};
+  o.contact_ratio = 0.01;
+  o.uncertain_constants = {
+      {&slipfront::medium::Constants::contact_ratio, Measured{0.01, 0.01, Measured::Shape::lognormal, 1.1}}};
+  for (const bool front : {false, true}) {
+    o.rupture_velocity_is = front ? RuptureVelocityIs::front : RuptureVelocityIs::characteristic;
+    sampled::Sampler sampler(o, {}, {.samples = 1000});
+    EXPECT_GT(sampled::draw_samples(sampler, 1000, 1000).effective, front ? 350 : 200);
+  }
+}
+
 /// An event that promises too few samples gets eight times the first ones, which may misjudge it.
 TEST(WeightedSamples, GiveUpAnEventAfterEightTimesTheFirstSamples) {
   slipfront::catalogue::Observation o = observed_front();
