@@ -190,6 +190,25 @@ TEST(FrictionScaling, RejectsALawWithAWrongDimension) {
     EXPECT_NE(refusal_of(example(wrong, Dimension::force, Dimension::slip), values), "");
 }
 
+/// The law f = eta w, with a strength at rest.
+class Sticking final : public Law {
+ public:
+  explicit Sticking(const std::vector<double>& v) : strength_(v[0]), eta_(v[1]) {}
+  double strength(double speed, LocalState) const override { return speed == 0 ? strength_ : eta_ * speed; }
+
+ private:
+  double strength_, eta_;
+};
+
+TEST(FrictionScaling, RejectsALawWithAWrongDimensionAtRest) {
+  Definition law = example(Dimension::force, Dimension::force, Dimension::slip);
+  law.make = make_law<Sticking>;
+  EXPECT_EQ(refusal_of(law, {0.1, 0.5, 2}), "");
+  law.parameters[0].dimension = Dimension::number;
+  EXPECT_EQ(refusal_of(law, {0.1, 0.5, 2}),
+            "on a chain of scale 100 its force at w = 0 is 0.1 in place of f / scale = 0.001");
+}
+
 /// Without a positive parameter that is a force, the solvers would ignore friction, as if the law were "none".
 TEST(FrictionScaling, RejectsAForceWithoutAForceParameter) {
   const Definition law = example(Dimension::number, Dimension::number, Dimension::slip);

@@ -130,6 +130,32 @@ TEST(VaryingFriction, IsProportionalToTheNormalStress) {
   }
 }
 
+/// The normal stress multiplies the force. It does not change how the state evolves.
+TEST(VaryingFriction, EvolvesEquallyUnderAnyNormalStress) {
+  const std::vector<double> slip = {0.4, 0.02, 0};
+  for (const Friction& friction : all_frictions()) {
+    const Friction under = friction.under(varied(1));
+    const std::size_t each = under.state_size();
+    std::vector<double> states(each * slip.size());
+    for (std::size_t i = 0; i < slip.size(); ++i) under.start(0.7, 0.2, std::span(states).subspan(i * each, each));
+    under.evolution().advance_all(slip.size(), Slips::at(slip.data()), 0.3, each, states.data());
+    for (std::size_t i = 0; i < slip.size(); ++i) {
+      std::vector<double> own = friction.state_at_start();
+      friction.evolution().advance(Slip::at(slip[i]), 0.3, own);
+      own.push_back(varied(1).at(0.7, 0.2));
+      for (std::size_t v = 0; v < each; ++v)
+        EXPECT_NEAR(states[i * each + v], own[v], 1e-12 * own[v]) << friction.name() << " " << slip[i];
+    }
+  }
+}
+
+TEST(VaryingFriction, HasNoStrengthWithoutNormalStress) {
+  const AlongInterface none{[](double, double) { return 0; }, 0, 0};
+  const Friction friction = coulomb(0.5).with("coefficient", varied(0.4)).under(none);
+  EXPECT_EQ(friction.strength_at_rest(), 0);
+  EXPECT_GT(friction.under(varied(1)).strength_at_rest(), 0);
+}
+
 TEST(VaryingFriction, ScalesAsItsLawDoes) {
   constexpr double scale = 40;
   for (const Friction& friction : all_frictions()) {

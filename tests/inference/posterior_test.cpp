@@ -229,6 +229,23 @@ TEST(Posterior, SolvesExactObservations) {
     }
 }
 
+/// Exact observations are the limit of small errors, also where the rupture velocity is uncertain.
+TEST(Posterior, WeighsExactObservationsLikeThoseWithSmallErrors) {
+  Observation o;
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  o.rupture_velocity_m_s = Measured{1000, 3200};
+  o.slip_velocity_m_s = exact(0.2);
+  o.contact_ratio = 0.01;
+  const Posterior p = *posterior(o, defaults, {.samples = 4000});
+  o.slip_velocity_m_s = lognormal(0.2, 1.02);
+  const Posterior limit = *posterior(o, defaults, {.samples = 4000});
+  EXPECT_NEAR(p.rupture_velocity->median / limit.rupture_velocity->median, 1, 0.01);
+  EXPECT_NEAR(p.rupture_velocity->low / limit.rupture_velocity->low, 1, 0.01);
+  EXPECT_NEAR(std::log1p(p.damping_number->median), std::log1p(limit.damping_number->median), 0.02);
+  EXPECT_NEAR(std::log1p(p.damping_number->low), std::log1p(limit.damping_number->low), 0.02);
+  EXPECT_NEAR(std::log1p(p.damping_number->high), std::log1p(limit.damping_number->high), 0.02);
+}
+
 /// The static drop of a drawn state is that of a pulse with its velocity, contact ratio and damping number.
 TEST(Posterior, DrawsStaticDropsOfTheirPulses) {
   Observation o;

@@ -120,6 +120,137 @@ TEST(Evidence, CanExcludeValuesFarAboveThoseWithNormalErrors) {
   for (const double x : {0.2, 1.5, 2.0}) EXPECT_EQ(likelihood(normal, x, true), likelihood(normal, x, false)) << x;
 }
 
+/// Without a blur, the likelihood of a value is that of the observation on either side.
+TEST(Evidence, HasTheLikelihoodOfItsObservationOnEitherSide) {
+  using slipfront::catalogue::Measured;
+  for (const Measured& m :
+       {Measured{2, 2, Measured::Shape::normal, 0.2}, Measured{2, 2, Measured::Shape::split, 0.2, 0.4},
+        Measured{2, 2, Measured::Shape::lognormal, 1.2}, Measured{1.9, 2.1}}) {
+    const sampled::Evidence e{sampled::Source::contact, "contact_ratio", m, 0};
+    for (const double x : {1.6, 1.95, 2.0, 2.05, 2.4})
+      EXPECT_NEAR(e.blurred_likelihood(std::log(x), 0, false), m.likelihood(x), 1e-12) << x;
+  }
+}
+
+/// A prediction that is uncertain by a factor of e^3 may be near the observed value.
+TEST(Evidence, DoesNotExcludeSmallUncertainPredictions) {
+  const slipfront::catalogue::Measured m{2, 2, slipfront::catalogue::Measured::Shape::normal, 0.2};
+  const sampled::Evidence e{sampled::Source::contact, "contact_ratio", m, 0};
+  EXPECT_GT(e.blurred_likelihood(std::log(1e-6), 3, false), 0.9);
+  EXPECT_LT(e.blurred_likelihood(std::log(1e-6), 0.3, false), 1e-20);
+}
+
+/// The points of a cell are uniform, and their density is the share of the cell over its volume.
+TEST(Cells, SpreadPointsUniformlyWithinEach) {
+  using sampled::Axis;
+  sampled::Cells cells(Axis::uniform(0, 2, 1), Axis::exact(7), Axis::uniform(1, 5, 2));
+  cells.target(0, 0, 0) = 3;
+  cells.target(0, 0, 1) = 1;
+  cells.finish(0, {1}, {1, 1});
+  for (const double p : {0.1, 0.3, 0.6, 0.9}) {
+    const auto point = cells.at(p, 0.5, p);
+    EXPECT_NEAR(point.first, 2 * p, 1e-12);
+    EXPECT_EQ(point.second, 7);
+    EXPECT_NEAR(point.third, p < 0.75 ? 1 + 2 * p / 0.75 : 3 + 2 * (p - 0.75) / 0.25, 1e-12);
+    EXPECT_NEAR(point.density, p < 0.75 ? 0.75 / 4 : 0.25 / 4, 1e-12);
+  }
+}
+
+TEST(WeightedSamples, FindTheDistanceOfTheNearestPrediction) {
+  sampled::WeightedSamples samples;
+  for (const double V : {2000.0, 2900.0, 2500.0}) {
+    samples.accepted.push_back({1, sampled::unknown_state(), {}});
+    samples.accepted.back().state.rupture_velocity_m_s = V;
+  }
+  const slipfront::catalogue::Measured normal{3000, 3000, slipfront::catalogue::Measured::Shape::normal, 50};
+  EXPECT_NEAR(samples.nearest_deviation(normal, {}).value(), 2, 1e-12);
+  EXPECT_FALSE(samples.nearest_deviation({3000, 3000}, {}));
+}
+
+/// Weights with a heavy tail determine a median, but no mean distance from it, unless the heavy samples are near it.
+TEST(WeightedSamples, SufficeForAQuantityWhoseHeavySamplesAreNearItsMedian) {
+  sampled::WeightedSamples samples;
+  samples.drawn = 1000;
+  for (const double weight : pareto_quantiles(1.5, 1000)) {
+    samples.accepted.push_back({weight, sampled::unknown_state(), {}});
+    samples.accepted.back().state.stress = std::exp(1 / weight);
+    samples.accepted.back().state.contact_ratio = std::exp(0.1);
+  }
+  EXPECT_TRUE(samples.suffice_for(&sampled::FaultState::stress, 1));
+  EXPECT_FALSE(samples.suffice_for(&sampled::FaultState::contact_ratio, 1));
+}
+
+TEST(WeightedSamples, AllCountIfTheirWeightsAreEqual) {
+  slipfront::catalogue::Observation o = observed_front();
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.5, 0.5};
+  sampled::Sampler sampler(o, {}, {.samples = 64});
+  const sampled::WeightedSamples samples = sampled::draw_samples(sampler, 64, 64);
+  EXPECT_EQ(samples.accepted.size(), 64u);
+  EXPECT_NEAR(samples.effective, 64, 1e-9);
+}
+
+/// The other observations agree with a small part of this range of velocities. The cells move there.
+TEST(Sampler, FindsTheVelocitiesOfAWideRangeThatAgreeWithTheOthers) {
+  using slipfront::catalogue::Measured;
+  slipfront::catalogue::Observation o;
+  o.rupture_velocity_m_s = Measured{1, 3300};
+  o.slip_velocity_m_s = Measured{0.5, 0.5, Measured::Shape::lognormal, 1.1};
+  o.contact_ratio = 0.01;
+  o.uncertain_constants = {
+      {&slipfront::medium::Constants::contact_ratio, Measured{0.01, 0.01, Measured::Shape::lognormal, 1.1}}};
+  for (const bool front : {false, true}) {
+    o.rupture_velocity_is = front ? RuptureVelocityIs::front : RuptureVelocityIs::characteristic;
+    sampled::Sampler sampler(o, {}, {.samples = 1000});
+    EXPECT_GT(sampled::draw_samples(sampler, 1000, 1000).effective, front ? 350 : 200);
+  }
+}
+
+/// An event that promises too few samples gets eight times the first ones, which may misjudge it.
+TEST(WeightedSamples, GiveUpAnEventAfterEightTimesTheFirstSamples) {
+  slipfront::catalogue::Observation o = observed_front();
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.4, 0.6};
+  o.contact_ratio = 0.01;
+  sampled::Sampler sampler(o, {}, {.samples = 16});
+  EXPECT_EQ(sampled::draw_samples(sampler, 16, 4096, 1e6).drawn, 128u);
+}
+
+/// The misfit is the sum of the squared distances in standard deviations, at the state where it is least. Two values
+/// that are n standard deviations apart have n^2 / 2. The cells, which have a width, find up to a third less.
+TEST(Sampler, FindsTheLeastMisfitOfItsObservations) {
+  using slipfront::catalogue::Measured;
+  slipfront::catalogue::Observation o = observed_front();
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  o.slip_velocity_m_s = Measured{0.5, 0.5};
+  o.contact_ratio = 0.01;
+  o.uncertain_constants = {
+      {&slipfront::medium::Constants::contact_ratio, Measured{0.01, 0.01, Measured::Shape::lognormal, 1.1}}};
+  o.hardness = Measured{1, 1};
+  const double same = 0.01 / slipfront::medium::plastic_contact_ratio(0.25);
+  const auto misfit = [&](double sigmas) {
+    const double strength = same * std::pow(1.1, sigmas);
+    o.normal_stress = Measured{strength, strength, Measured::Shape::lognormal, 1.1};
+    return sampled::Sampler(o, {}, {}).least_misfit();
+  };
+  EXPECT_GE(misfit(0), 0);
+  EXPECT_LT(misfit(0), 0.5);
+  for (const double sigmas : {4.0, 6.0}) {
+    EXPECT_LT(misfit(sigmas), sigmas * sigmas / 2) << sigmas;
+    EXPECT_GT(misfit(sigmas), sigmas * sigmas / 3) << sigmas;
+  }
+}
+
+TEST(Sampler, BoundsTheStressFromASlipVelocityAndTheContact) {
+  using slipfront::catalogue::Measured;
+  slipfront::catalogue::Observation o;
+  o.slip_velocity_m_s = Measured{0.5, 0.5, Measured::Shape::lognormal, 1.2};
+  o.contact_ratio = 0.01;
+  const sampled::Sampler sampler(o, {}, {});
+  EXPECT_TRUE(sampler.knows_contact());
+  EXPECT_EQ(sampler.mode(), sampled::Mode::bounds);
+}
+
 TEST(PulseModel, TakesTheStaticDropOfAPulseWithoutFriction) {
   slipfront::catalogue::Observation o = observed_front();
   o.stress_drop = slipfront::catalogue::Measured{1e6, 1e6};
@@ -174,6 +305,25 @@ TEST(Posterior, SamplesEventsWhoseObservationsNeedIt) {
   EXPECT_FALSE(sampled::needs_samples(o));
   o.uncertain_constants.push_back({&slipfront::medium::Constants::p_wave_speed, {5900, 6100}});
   EXPECT_TRUE(sampled::needs_samples(o));
+}
+
+/// A front is slower than the characteristic velocity by an unknown factor, which exact velocities do not determine.
+TEST(Posterior, SamplesExactVelocitiesIfOneIsThatOfTheFront) {
+  slipfront::catalogue::Observation o = observed_front();
+  EXPECT_FALSE(sampled::needs_samples(o));
+  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.5, 0.5};
+  EXPECT_TRUE(sampled::needs_samples(o));
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  EXPECT_FALSE(sampled::needs_samples(o));
+}
+
+TEST(Posterior, DerivesNoSlipVelocityThatWasNotObserved) {
+  sampled::FaultState state = sampled::unknown_state();
+  state.contact_ratio = 0.01;
+  state.frictionless_slip_velocity = 2;
+  sampled::derive(state, {.speed = 3000, .shear_modulus = 30e9, .poisson_ratio = 0.25}, {});
+  EXPECT_TRUE(std::isnan(state.observed_slip_velocity));
+  EXPECT_TRUE(std::isnan(state.slip_velocity_ratio));
 }
 
 /// A sample with a slower medium can have an observed velocity above c. It is rejected.

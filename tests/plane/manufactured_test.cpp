@@ -187,6 +187,27 @@ TEST(PlaneManufactured, AForcePushesLoopsAndSuppliesItsPower) {
   EXPECT_EQ(free.supply(), 0);
 }
 
+/// A wave moves along a loop at most with the speed 1. Where the angles are close, that limits the step.
+TEST(PlaneManufactured, AWaveAlongALoopPassesLessThanAnAngleInAStep) {
+  plane::Loops loops;
+  loops.rows = 8;
+  loops.angles = 512;
+  loops.wall.assign(loops.angles, 0);
+  for (std::size_t row = 0; row <= loops.rows; ++row) {
+    loops.label.push_back(0.1 * static_cast<double>(row));
+    for (std::size_t k = 0; k < loops.angles; ++k) loops.r.push_back(2 - loops.label[row]);
+  }
+  loops.momentum.assign(loops.cells(), 0);
+  loops.s.assign(loops.cells(), 0.3);
+  std::vector<double> r_rate(loops.r.size()), rate(loops.cells());
+  const Problem problem;
+  plane::LoopEquations equations(problem, loops);
+  equations.find_rates(0, loops.r, loops.momentum, loops.s, r_rate, rate);
+  const double shortest = equations.middle(loops.cells() - 1) * loops.turn();
+  EXPECT_LT(equations.longest_step(), shortest);
+  EXPECT_GT(equations.longest_step(), 0.5 * shortest);
+}
+
 /// Slip and velocity of the lines without symmetry, with a slope everywhere.
 struct MovingSlip {
   bool rough = false;
@@ -265,6 +286,7 @@ struct RowOfCells {
   bool along_y;
   plane::Cells cells{along_y ? across : count, along_y ? count : across, 0, 0, h, h};
   plane::Averages now{}, rate{};
+  bool lines_meet = false;
 
   template <class Slip, class Action>
   void find(const Slip& slip, const Action& action) {
@@ -280,12 +302,29 @@ struct RowOfCells {
     });
     equations.set_known(std::vector<char>(cells.size(), 1));
     equations.find_rates(0, now, rate);
+    lines_meet = equations.lines_meet();
   }
   std::size_t at(int n) const {
     const std::size_t along = middle + static_cast<std::size_t>(n);
     return along_y ? cells.at(across / 2, along) : cells.at(along, across / 2);
   }
 };
+
+/// Lines meet in a valley of the slip that fills and at a peak that falls, but not on a slope.
+TEST(PlaneManufactured, LinesMeetWhereBothSidesMoveTowardsEachOther) {
+  for (const bool along_y : {false, true})
+    for (const double action : {0.5, -0.5}) {
+      const auto meet = [&](const auto& slip) {
+        RowOfCells row{.along_y = along_y};
+        row.find(slip, [&](double) { return action; });
+        return row.lines_meet;
+      };
+      EXPECT_EQ(meet([](double n) { return 9 + 0.3 * std::fabs(n); }), action > 0);
+      EXPECT_EQ(meet([](double n) { return 9 - 0.3 * std::fabs(n); }), action < 0);
+      EXPECT_FALSE(meet([](double n) { return 9 + 0.3 * n; }));
+      EXPECT_FALSE(meet([](double n) { return 9 - 0.3 * n; }));
+    }
+}
 
 /// A train with the density k that moves with the velocity U has this wave action.
 double action_of(double k, double U) {

@@ -38,6 +38,33 @@ Result run_step(double left_stress, double right_stress, double left, double rig
   return {last.slip_at_origin, run.balance().energy_drift, 1 - (last.energy.elastic + last.energy.kinetic) / before};
 }
 
+/// u of z = u + strength sin(u), by bisection.
+double displacement_of(double z, double strength) {
+  double low = z - 1, high = z + 1;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = (low + high) / 2;
+    (middle + strength * std::sin(middle) < z ? low : high) = middle;
+  }
+  return low;
+}
+
+/// The energy that leaves an empty end is -u_x times the rise of u, for the largest strength of the substrate.
+TEST(ChainAbsorbing, OutflowIsTheWorkOfTheTractionAtAnEmptyEnd) {
+  const double h = 0.5, dt = 0.3, strength = 0.02;
+  AbsorbingEnd end;
+  end.h = h;
+  end.dt = dt;
+  end.eps = strength;
+  end.outward = -1;
+  const double now[] = {0.2, 0.35, 0.6}, next[] = {0, 0.31, 0.55};  // z / 2 pi from the end inwards
+  const AbsorbingEnd::Step step = end.step(now, next);
+  const auto u = [&](double turns) { return displacement_of(2 * pi * turns, strength); };
+  const auto slope = [&](double first, const double* z) { return (4 * u(z[1]) - 3 * u(first) - u(z[2])) / (2 * h); };
+  EXPECT_NEAR(step.next, now[0] + dt / h * (now[1] - now[0]), 1e-15);
+  const double rise = u(step.next) - u(now[0]);
+  EXPECT_NEAR(step.outflow, (slope(now[0], now) + slope(step.next, next)) / 2 * rise, 1e-12);
+}
+
 /// A uniform train loses nothing through absorbing ends, because the ends assume that the train continues outside.
 /// Before a correction it lost 8 to 13 % of its energy.
 TEST(ChainAbsorbing, StressedTrainStaysAtRest) {

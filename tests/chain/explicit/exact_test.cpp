@@ -44,4 +44,27 @@ TEST(Chain, FollowsExactSolutionsAtFourthOrder) {
   }
 }
 
+/// A force near an end does the same work as its mirror image near the other end.
+TEST(Chain, WorkAtAnEndIsThatOfItsMirrorImage) {
+  const auto flows = [](double sign, bool steady, const friction::Friction& friction) {
+    Problem p = on_grid(10, 0.2);
+    p.boundary = {.left = End::free, .right = End::free};
+    p.friction = friction;
+    p.steady_forcing = steady;
+    p.forcing = [=](double x, double t) {
+      return 0.5 * std::exp(-(10 - sign * x) * (10 - sign * x)) * (steady ? 1 : std::cos(t));
+    };
+    chain::ExplicitChain run(p, {std::vector<double>(p.grid.sites, 0.0), {}});
+    run.advance_to(4);
+    return run.flows();
+  };
+  for (const bool steady : {false, true})
+    for (const friction::Friction& friction : {friction::viscous(0.3), friction::power(0.3, 2)}) {
+      const Flows right = flows(1, steady, friction), left = flows(-1, steady, friction);
+      EXPECT_GT(right.supplied, 0.1);
+      EXPECT_NEAR(left.supplied / right.supplied, 1, 1e-12);
+      EXPECT_NEAR(left.dissipated / right.dissipated, 1, 1e-12);
+    }
+}
+
 }  // namespace

@@ -47,6 +47,19 @@ TEST(ChainKernels, SumOverAllSitesOfTheirBlocks) {
   }
 }
 
+/// A level is bounded if each |z| is below 2^51, up to which a double has a fractional part of z.
+TEST(ChainKernels, RejectLevelsOutsideTheRangeOfTheForce) {
+  std::vector<double> z(11, 1.5);
+  for (const double sign : {1.0, -1.0}) {
+    z[9] = sign * std::nextafter(0x1p51, 0);
+    EXPECT_TRUE(chains::bounded(z.data(), z.size()));
+    for (const double beyond : {0x1p51, HUGE_VAL, std::nan("")}) {
+      z[9] = sign * beyond;
+      EXPECT_FALSE(chains::bounded(z.data(), z.size())) << beyond;
+    }
+  }
+}
+
 TEST(ChainKernels, WorkAndEnergyOfASite) {
   const double two_pi = 2 * std::acos(-1.0);
   const chains::PeriodicForce sine = chains::substrate_force(0);

@@ -34,6 +34,33 @@ TEST(Tridiagonal, SolvesItsEquations) {
   }
 }
 
+/// A string with the slope c has the energy c^2 / 2 of each unit of length, also under a standing wave.
+TEST(CompactSprings, HaveTheEnergyOfAnInclinedString) {
+  constexpr std::size_t sites = 41;
+  constexpr double h = 0.25, height = 0.01;
+  const double pi = std::acos(-1.0);
+  for (const chain::Model model : {chain::Model::lattice, chain::Model::sine_gordon})
+    for (const bool ring : {false, true}) {
+      chain::Problem p;
+      p.model = model;
+      p.grid = {0, h, sites};
+      p.boundary = {chain::End::fixed, chain::End::fixed, ring, ring ? 1 : 0};
+      const double length = ring ? sites * h : (sites - 1) * h, slope = -2 * pi / length;
+      std::vector<double> wave, inclined;
+      for (std::size_t j = 0; j < sites; ++j) {
+        const double x = h * static_cast<double>(j);
+        wave.push_back(height * std::sin(2 * pi * x / length));
+        inclined.push_back(wave[j] + slope * x);
+      }
+      wave.back() = ring ? wave.back() : 0;
+      chain::Problem level = p;
+      level.boundary.charge = 0;
+      const double of_wave = CompactSprings(level, wave, Ranks::single()).energy(wave);
+      const double energy = CompactSprings(p, inclined, Ranks::single()).energy(inclined);
+      EXPECT_NEAR(energy - of_wave, slope * slope / 2 * length, 1e-11) << ring;
+    }
+}
+
 /// A standing wave has the energy of its force, whose ratio to u is known: (2 cos kh - 2) / h^2, over 1 + 1/12 of its
 /// numerator for the scheme of fourth order.
 TEST(CompactSprings, HaveTheEnergyOfStandingWaves) {

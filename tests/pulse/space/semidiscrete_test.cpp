@@ -76,6 +76,23 @@ TEST(Semidiscrete, ReportsTheTimeInWhichSoundCrossesACell) {
   EXPECT_NEAR(equations.mean_crossing_time(trains.y.data()), mean_width / speed, 1e-14);
 }
 
+/// The contact pulls each dislocation of a dilute train by -8 a', also next to free edges, where the density falls
+/// fast.
+TEST(Semidiscrete, ContactPullsEachDislocationNextToAnEdge) {
+  constexpr std::size_t cells = 8;
+  constexpr double charge = 0.05, slope = 0.01;
+  Called train(cells);
+  train.setup.charge.assign(cells, charge);
+  train.setup.left = train.setup.right = Edge::free;
+  train.setup.contact = [](double x) { return 1 + slope * x; };
+  const pulse::Values values(train.y.data(), cells), rates(train.rates.data(), cells);
+  for (std::size_t i = 0; i < cells; ++i) values.width(i) = 2 * std::pow(1.4, static_cast<double>(i));
+  (void)train.called();
+  for (const std::size_t i : {std::size_t{0}, cells - 1})
+    EXPECT_NEAR(rates.momentum(i) / (-8 * slope * charge), 1, 1e-9);
+  for (std::size_t i = 1; i + 1 < cells; ++i) EXPECT_NEAR(rates.momentum(i) / (-8 * slope * charge), 1, 0.01) << i;
+}
+
 /// A train of this many cells from -3 to 3, one of which has more dislocations, or its mirror image.
 struct Mirrored : Called {
   static constexpr std::size_t cells = 16;

@@ -82,6 +82,26 @@ TEST(Staggered, StepsTakeTheFrictionOfTheirEnd) {
   }
 }
 
+/// Lengths over a, momenta over a and forces over a^2 are those of a train with contact ratio 1. Here two trains run
+/// into each other, whose pressure stops them.
+TEST(Staggered, ScalesForcesWithTheSquareOfAUniformContactRatio) {
+  constexpr double a = 1.7, momentum = 1e-4;
+  pulse::Setup scaled = setup(friction::viscous(1e-3)), plain = scaled;
+  scaled.contact = [](double) { return a; };
+  scaled.charge.assign(cells, 0.2);
+  plain.charge.assign(cells, 0.2 / a);
+  std::vector<double> z = unknowns(0.4, 0);
+  const pulse::FaceValues values(z.data(), cells + 1);
+  for (std::size_t f = 1; f < cells; ++f) values.momentum(f) = f <= cells / 2 ? momentum : -momentum;
+  Staggered with_contact(scaled), without(plain);
+  const std::vector<double> rates = rates_of(with_contact, z);
+  for (std::size_t f = 1; f < cells; ++f) values.momentum(f) /= a * a;
+  const std::vector<double> unit_rates = rates_of(without, z);
+  const pulse::ConstFaceValues rate(rates.data(), cells + 1), unit_rate(unit_rates.data(), cells + 1);
+  EXPECT_LT(unit_rate.momentum(cells / 2), -0.1 * momentum);
+  for (std::size_t f = 1; f < cells; ++f) EXPECT_NEAR(rate.momentum(f) / (a * a * unit_rate.momentum(f)), 1, 1e-3) << f;
+}
+
 /// Means over the cells of momenta that are a cubic function inside a block, and a line in its end cells.
 TEST(Staggered, FindsMeansOfCubicMomenta) {
   pulse::Setup two = setup(friction::viscous(1), Edge::free);
