@@ -7,6 +7,7 @@
 #include "long_run.hpp"
 #include "record/files/unfinished.hpp"
 #include "run/run.hpp"
+#include "terminal_table.hpp"
 
 namespace {
 
@@ -15,16 +16,17 @@ using namespace slipfront::scenario;
 
 void describe(const scenario::Scenario& s, const run::ChainPlan& plan, const chain::Problem& p) {
   if (p.implicit) {
-    put(
+    put(fitted(
         fmt::format("{}: OK. This scenario would run {} sites, {:.6g} apart, at scale {:.6g} by implicit steps of "
-                    "tolerance {:.6g}, {}.\n",
+                    "tolerance {:.6g}, {}.",
                     s.title.empty() ? s.file : s.title, p.grid.sites, p.grid.spacing, plan.chain.scale, p.tolerance,
-                    in_words(plan.need)));
+                    in_words(plan.need))));
     return;
   }
-  put(fmt::format("{}: OK. This scenario would run {} sites, {:.6g} apart, at scale {:.6g} for {:.0f} steps, {}.\n",
+  put(fitted(
+      fmt::format("{}: OK. This scenario would run {} sites, {:.6g} apart, at scale {:.6g} for {:.0f} steps, {}.",
                   s.title.empty() ? s.file : s.title, p.grid.sites, p.grid.spacing, plan.chain.scale,
-                  s.end * plan.chain.scale / chain::chosen_step(p), in_words(plan.need)));
+                  s.end * plan.chain.scale / chain::chosen_step(p), in_words(plan.need))));
 }
 
 int run_chain(const ScenarioArguments& a) {

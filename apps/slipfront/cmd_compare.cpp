@@ -11,6 +11,7 @@
 #include "run/run.hpp"
 #include "scenario/estimate.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "terminal_table.hpp"
 
 namespace {
 
@@ -28,8 +29,9 @@ void describe(const scenario::Scenario& s, const run::Comparison& c, const std::
                                  s.title.empty() ? s.file : s.title, c.exact ? "the closed form, " : "");
   for (const auto& chain : c.chains)
     text += fmt::format(", chain at scale {:.6g} ({} sites)", chain.scale, chain::problem_of(chain).grid.sites);
-  put(text + fmt::format(" over x = {} ... {} to t = {}, {}.\n", in_results(s, c.problem.left, "b / A"),
-                         in_results(s, c.problem.right, "b / A"), in_results(s, s.end, "b / (c A)"), in_words(need)));
+  put(fitted(text + fmt::format(" over x = {} ... {} to t = {}, {}.", in_results(s, c.problem.left, "b / A"),
+                                in_results(s, c.problem.right, "b / A"), in_results(s, s.end, "b / (c A)"),
+                                in_words(need))));
 }
 
 int run_compare(const CompareArguments& a) {

@@ -95,7 +95,8 @@ std::vector<Check> all_checks() {
   return checks;
 }
 
-int run_doctor(bool json) {
+int run_doctor(bool json, bool wide) {
+  if (wide) print_whole_lines();
   const std::vector<Check> checks = all_checks();
   if (json) {
     Json all;
@@ -110,11 +111,10 @@ int run_doctor(bool json) {
     return exit_done;
   }
   put(fmt::format("slipfront {}\n", SLIPFRONT_VERSION));
-  static constexpr std::array<TableColumn, 4> columns = {{{12, true}, {8, true}, {40, true}, {0, true}}};
-  TerminalTable table(columns);
   for (const Check& check : checks)
-    table.add({check.name, check.works ? "works" : "missing", check.use, check.works ? check.found : check.remedy});
-  put(table.text());
+    put(fitted(fmt::format("{:<12} {:<8} {}: {}", check.name, check.works ? "works" : "missing", check.use,
+                           check.works ? check.found : check.remedy),
+               12 + 1 + 8 + 1));
   return exit_done;
 }
 
@@ -123,7 +123,8 @@ int run_doctor(bool json) {
 Runner add_doctor(CommandLine& program) {
   CommandLine command = program.command("doctor", "What works on this machine, and what to install for the rest",
                                         {"slipfront doctor", "slipfront doctor --json"});
-  auto json = std::make_shared<bool>(false);
+  auto json = std::make_shared<bool>(false), wide = std::make_shared<bool>(false);
   command.flag("--json", *json, "One JSON object on stdout, nothing else");
-  return [json] { return run_doctor(*json); };
+  add_wide(command, *wide);
+  return [json, wide] { return run_doctor(*json, *wide); };
 }

@@ -18,7 +18,7 @@ using slipfront::scenario::Key;
 
 struct KeysArguments {
   std::string table;
-  bool json = false;
+  bool json = false, wide = false;
 };
 
 Json json_of_key(const Key& key) {
@@ -61,6 +61,7 @@ std::vector<Key> chosen(const std::string& table) {
 }
 
 int run_keys(const KeysArguments& arguments) {
+  if (arguments.wide) print_whole_lines();
   const std::vector<Key> keys = chosen(arguments.table);
   if (arguments.json) {
     Json all;
@@ -85,5 +86,6 @@ Runner add_keys(CommandLine& program) {
                                         {"slipfront keys pulse", "slipfront keys --json"});
   command.option("TABLE", "", arguments->table, "A table of the scenario, such as pulse (default: all)");
   command.flag("--json", arguments->json, "One JSON object on stdout, nothing else");
+  add_wide(command, arguments->wide);
   return [arguments] { return run_keys(*arguments); };
 }

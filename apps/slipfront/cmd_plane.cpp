@@ -9,6 +9,7 @@
 #include "run/plane.hpp"
 #include "slipfront/plane/solvers.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "terminal_table.hpp"
 
 namespace {
 
@@ -29,12 +30,12 @@ std::string solver_in_words(const scenario::Scenario& s, scenario::Lines lines, 
 
 void describe(const scenario::Scenario& s, const run::PlanePlan& plan, const std::string& solver) {
   const record::PlaneGrid& grid = plan.grid;
-  put(fmt::format(
+  put(fitted(fmt::format(
       "{}: OK. This scenario would follow {} over x = {} ... {}, y = {} ... {} to t = {}, with results in "
-      "{} x {} cells at {} times: {:.1g} GB on the disk with -o.\n",
+      "{} x {} cells at {} times: {:.1g} GB on the disk with -o.",
       s.title.empty() ? s.file : s.title, solver, in_results(s, grid.left, "b / A"), in_results(s, grid.right, "b / A"),
       in_results(s, grid.bottom, "b / A"), in_results(s, grid.top, "b / A"), in_results(s, s.end, "b / (c A)"), grid.nx,
-      grid.ny, plan.schedule.times.size(), plan.disk / 1e9));
+      grid.ny, plan.schedule.times.size(), plan.disk / 1e9)));
 }
 
 /// Prints the results, and those of the finite-fault model with which they are compared, if any.

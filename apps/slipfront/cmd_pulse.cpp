@@ -13,6 +13,7 @@
 #include "run/run.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "terminal_table.hpp"
 
 namespace {
 
@@ -40,11 +41,11 @@ std::string duration_of(const pulse::Problem& problem, pulse::Run& run) {
 
 void describe(const scenario::Scenario& s, const run::PulsePlan& plan, pulse::Run& run) {
   const pulse::Problem& problem = plan.problem;
-  put(fmt::format("{}: OK. This scenario would run {} cells over x = {} ... {} to t = {}, {} (closure {}), {}{}.\n",
-                  s.title.empty() ? s.file : s.title, problem.cells, in_results(s, problem.left, "b / A"),
-                  in_results(s, problem.right, "b / A"), in_results(s, s.end, "b / (c A)"),
-                  parameters_in_words(s.friction), name_of(s.friction.closure()), in_words(plan.need),
-                  duration_of(problem, run)));
+  put(fitted(fmt::format(
+      "{}: OK. This scenario would run {} cells over x = {} ... {} to t = {}, {} (closure {}), {}{}.",
+      s.title.empty() ? s.file : s.title, problem.cells, in_results(s, problem.left, "b / A"),
+      in_results(s, problem.right, "b / A"), in_results(s, s.end, "b / (c A)"), parameters_in_words(s.friction),
+      name_of(s.friction.closure()), in_words(plan.need), duration_of(problem, run))));
 }
 
 int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {

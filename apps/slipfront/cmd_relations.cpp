@@ -10,6 +10,7 @@
 #include "relations_friction.hpp"
 #include "si_options.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/medium/medium.hpp"
 #include "slipfront/medium/quantity.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/rupture/riemann_trains.hpp"
@@ -28,7 +29,9 @@ using slipfront::rupture::StepRelations;
 struct Given {
   const char* option;
   Relations (*solve)(double);
-  std::vector<std::string> texts;
+  slipfront::medium::Dimension dimension;
+  const char* unit;  ///< in the model
+  std::vector<std::string> texts = {};
   std::size_t used = 0;
   std::optional<Option> parsed = {};
 };
@@ -99,9 +102,9 @@ void print_one(const Row& row, const auto& quantities, const RelationsUnits& uni
   for (std::size_t i = 0; i < units.each.size(); ++i) {
     const auto& q = quantities[i];
     const std::string& unit = units.each[i].name;
-    put(fitted(fmt::format("{:<31} {:<24} {}{}{}", q.about.name, row.*q.value, q.about.long_name,
+    put(fitted(fmt::format("{:<31} {:<20} {}{}{}", q.about.name, row.*q.value, q.about.long_name,
                            unit.empty() ? "" : ", in ", unit),
-               31 + 1 + 24 + 1));
+               31 + 1 + 20 + 1));
   }
 }
 
@@ -200,8 +203,37 @@ int run_steps(const std::vector<AskedState>& states, const std::string& stress_r
   return print_relations(std::move(results), step_quantities(), units_of(si_options, step_quantities()), options);
 }
 
+/// The number in the unit of the model that a text such as "2.7 km/s" means. It needs the constants of --si; without
+/// them, a rupture velocity is that in a rock with the default constants.
+double in_model(const Given& given, const std::string& text, const SiOptions& options, bool quiet) {
+  const auto refuse = [&](const std::string& problem, const std::string& allowed) {
+    return InputError(
+        {.file = "command line", .key = given.option, .value = text, .problem = problem, .allowed = allowed});
+  };
+  const bool is_front = std::string_view(given.unit) == "c";
+  if (!options.si && !is_front)
+    throw refuse("in SI units it needs --si and --contact-ratio",
+                 fmt::format("--si --contact-ratio A, or a number in {}", given.unit));
+  slipfront::medium::Span span{};
+  try {
+    span = slipfront::medium::parse_quantity(text, given.dimension);
+  } catch (const InputError& error) {
+    throw refuse(error.complaint().problem, error.complaint().allowed);
+  }
+  if (span.low < span.high) throw refuse("a range, where one number is needed", "first:last:count in the model's unit");
+  if (options.si) return span.low / ResultUnits(options).of(given.unit).value;
+  const slipfront::medium::Elastic rock = slipfront::medium::elastic({}, {});
+  if (!quiet)
+    complain(
+        fmt::format("note: {} is {:.4g} c, with c = {:.4g} km/s of a p-wave speed of 6 km/s and a Poisson's ratio "
+                    "of 0.3; other constants: --si",
+                    text, span.low / rock.speed, rock.speed / 1e3));
+  return span.low / rock.speed;
+}
+
 /// The states of all options, in the order of the command line.
-std::vector<AskedState> states_asked_for(const CommandLine& command, std::array<Given, 3>& all) {
+std::vector<AskedState> states_asked_for(const CommandLine& command, std::array<Given, 3>& all, const SiOptions& si,
+                                         bool quiet) {
   std::vector<AskedState> states;
   bool stdin_taken = false;
   for (const Option& option : command.given()) {
@@ -216,7 +248,8 @@ std::vector<AskedState> states_asked_for(const CommandLine& command, std::array<
                           .problem = "stdin was already read",
                           .allowed = "only one -"});
       stdin_taken = stdin_taken || from_stdin;
-      for (const StateValue& at : state_values(text, given.option)) states.push_back({&given, at});
+      const auto convert = [&](const std::string& quantity) { return in_model(given, quantity, si, quiet); };
+      for (const StateValue& at : state_values(text, given.option, convert)) states.push_back({&given, at});
     }
   }
   if (states.empty())
@@ -227,6 +260,13 @@ std::vector<AskedState> states_asked_for(const CommandLine& command, std::array<
   return states;
 }
 
+std::array<Given, 3> all_given() {
+  using slipfront::medium::Dimension;
+  return {{{"--stress", slipfront::rupture::from_stress, Dimension::pressure, "mu A / pi"},
+           {"--rupture-velocity", slipfront::rupture::from_rupture_velocity, Dimension::velocity, "c"},
+           {"--slip-velocity", slipfront::rupture::from_slip_velocity, Dimension::velocity, "c A / pi"}}};
+}
+
 }  // namespace
 
 Runner add_relations(CommandLine& program) {
@@ -235,9 +275,7 @@ Runner add_relations(CommandLine& program) {
     FrictionOptions friction;
     SiOptions si;
     std::string stress_right;
-    std::array<Given, 3> given = {{{"--stress", slipfront::rupture::from_stress, {}},
-                                   {"--rupture-velocity", slipfront::rupture::from_rupture_velocity, {}},
-                                   {"--slip-velocity", slipfront::rupture::from_slip_velocity, {}}}};
+    std::array<Given, 3> given = all_given();
   };
   auto arguments = std::make_shared<Arguments>();
   CommandLine command = program.command(
@@ -252,10 +290,11 @@ Runner add_relations(CommandLine& program) {
                                            "Velocity of the fast front, in c", "Slip velocity at x = 0, in c A / pi"};
   for (std::size_t i = 0; i < 3; ++i) {
     Given& given = arguments->given[i];
-    given.parsed = command
-                       .option(given.option, "VALUE", given.texts,
-                               std::string(help[i]) + "; repeatable; a:b:n or a:b:n:log for a range, - for stdin")
-                       .repeatable();
+    given.parsed =
+        command
+            .option(given.option, "VALUE", given.texts,
+                    std::string(help[i]) + ", or with a unit; repeatable; a:b:n or a:b:n:log for a range, - for stdin")
+            .repeatable();
   }
   command.option("--stress-right", "VALUE", arguments->stress_right,
                  "Stress ahead of the leading front, in mu A / pi, instead of an empty interface; with --stress");
@@ -263,7 +302,8 @@ Runner add_relations(CommandLine& program) {
   add_si_options(command, arguments->si);
   add_common_options(command, arguments->common);
   return [arguments, command] {
-    const std::vector<AskedState> states = states_asked_for(command, arguments->given);
+    const std::vector<AskedState> states =
+        states_asked_for(command, arguments->given, arguments->si, arguments->common.quiet);
     if (!arguments->stress_right.empty())
       return run_steps(states, arguments->stress_right, arguments->friction, arguments->si, arguments->common);
     return run_closed_forms(states, arguments->friction, arguments->si, arguments->common);

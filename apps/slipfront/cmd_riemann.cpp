@@ -215,11 +215,12 @@ void print_csv(const Shown& s, const RiemannUnits& units, int points) {
 
 void print_origin(const TrainsPoint& origin, const RiemannUnits& units) {
   const std::size_t count = origin.trains.size();
-  put(fmt::format("at x = 0: {}, Sigma = {:.6g}, W = {:.6g}\n",
-                  count == 0   ? "no dislocations"
-                  : count == 1 ? "one train"
-                               : "two trains",
-                  origin.all.Sigma * units.each[of_stress].value, origin.all.W * units.each[of_slip_velocity].value));
+  put(fitted(fmt::format("at x = 0: {}, Sigma = {:.6g}, W = {:.6g}",
+                         count == 0   ? "no dislocations"
+                         : count == 1 ? "one train"
+                                      : "two trains",
+                         origin.all.Sigma * units.each[of_stress].value,
+                         origin.all.W * units.each[of_slip_velocity].value)));
 }
 
 void print_table(const Shown& s, const RiemannUnits& units) {
@@ -258,7 +259,7 @@ void print_table(const Shown& s, const RiemannUnits& units) {
   add_wave(s.right_wave);
   add("right", number(s.edges.right * c), "", &right);
   put(table.text());
-  if (has_shocks(s)) put(std::string(shocks_depend_on_the_frame) + "\n");
+  if (has_shocks(s)) put(fitted(shocks_depend_on_the_frame));
   if (s.exact) print_origin(s.at(0), units);
 }
 

@@ -62,27 +62,30 @@ std::string cost_of(const scenario::Scenario& s) {
 
 void print(const scenario::Scenario& s, const std::vector<scenario::Quantity>& quantities,
            const scenario::Numbers& numbers) {
-  const std::vector<TableColumn> columns = {{34, true},    {14, true, 2},  {14, false, 2},
-                                            {24, true, 2}, {14, false, 2}, {6, true, 1}};
+  const std::vector<TableColumn> columns = {{32, true}, {14, true, 2}, {20, true, 1}, {37, true, 1}};
   TerminalTable table(columns);
-  const auto in_si = [](const std::optional<double>& x) { return x ? number(*x) : std::string("-"); };
-  const auto si_unit = [](const std::optional<double>& x, std::string_view unit) { return std::string(x ? unit : ""); };
-  table.add({"unit of the model", "", "", "", "in SI", ""});
+  const auto with_unit = [](double x, std::string_view unit) {
+    const std::string value = number(x);
+    return fmt::format("{:>{}} {}", value, 12, unit);
+  };
+  const auto in_si = [&](const std::optional<double>& x, std::string_view unit) {
+    return x ? with_unit(*x, unit) : fmt::format("{:>12}", "-");
+  };
+  table.add({"unit of the model", "", fmt::format("{:>12}", "in SI"), fmt::format("{:>12}", "in the model")});
   for (const scenario::Scale& scale : scenario::scales_of(s.medium))
-    table.add({std::string(scale.name), "", "1", std::string(scale.symbol), in_si(scale.si),
-               si_unit(scale.si, scale.si_unit)});
+    table.add({std::string(scale.name), "", in_si(scale.si, scale.si_unit), with_unit(1, scale.symbol)});
   table.add_title("");
-  table.add({"key", "in the file", "in the model", "", "in SI", ""});
+  table.add({"key", "in the file", fmt::format("{:>12}", "in SI"), fmt::format("{:>12}", "in the model")});
   for (const scenario::Quantity& q : quantities)
-    table.add({q.key, printable(q.text, 24), number(q.model), std::string(q.unit), q.si_unit.empty() ? "" : in_si(q.si),
-               si_unit(q.si, q.si_unit)});
+    table.add({q.key, printable(q.text, 24), q.si_unit.empty() ? std::string() : in_si(q.si, q.si_unit),
+               with_unit(q.model, q.unit)});
   put(table.text() + "\n");
   for (const NamedNumber& n : named(numbers)) {
     if (!n.value) continue;
     const std::string line = fmt::format("{}: {}", n.meaning, number(*n.value));
     const auto si = unit_in_si(s, n.unit);
-    put(line + (n.unit.empty() ? "" : fmt::format(" in {}", n.unit)) +
-        (si ? fmt::format(", {} {}", number(*n.value * *si), n.si_unit) : "") + "\n");
+    put(fitted(line + (n.unit.empty() ? "" : fmt::format(" in {}", n.unit)) +
+               (si ? fmt::format(", {} {}", number(*n.value * *si), n.si_unit) : "")));
   }
   put(fitted("cost: " + cost_of(s)) + "\n");
 }
@@ -125,7 +128,7 @@ Runner add_units(CommandLine& program) {
       "units",
       "The numbers of a scenario in the units of the model and in SI units, and those that decide its behaviour",
       {"slipfront units cases/rate-and-state.toml",
-       "slipfront units cases/stick-slip.toml --set medium.contact_ratio=0.01 medium.asperity_spacing='1 mm'"});
+       "slipfront units cases/stick-slip.toml --set medium.contact_ratio=0.01"});
   add_scenario_words(command, *a);
   add_common_options(command, a->common, false);
   return [a] { return run_units(*a); };

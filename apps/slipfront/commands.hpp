@@ -16,14 +16,18 @@ struct CommonOptions {
   bool json = false;
   bool csv = false;
   bool quiet = false;
+  bool wide = false;
   int threads = 0;  ///< 0 means the number of cores
 };
 
 /// Exit codes of the program (docs/scenario.md).
 enum ExitCode { exit_done = 0, exit_input = 2, exit_file = 3, exit_numerics = 4, exit_interrupted = 130 };
 
-/// Adds --json, --csv (if the output has rows), --quiet and --threads.
+/// Adds --json, --csv (if the output has rows), --quiet, --wide and --threads.
 void add_common_options(CommandLine& command, CommonOptions& options, bool with_csv = true);
+
+/// Adds --wide.
+void add_wide(CommandLine& command, bool& wide);
 
 /// Prints one line on stderr that begins with the name of the program.
 void complain(std::string_view line);

@@ -25,7 +25,7 @@ int write_fault(const EventArguments& a, const slipfront::run::CatalogueScenario
   else
     slipfront::record::write_fault_grid(a.output, result.source, SLIPFRONT_VERSION, history);
   EventPrinter printer(a.common, {.rows = false});
-  printer.take(printer.printed(result.event));
+  printer.take(printer.printed(result.event, 1));
   printer.finish({}, a.output);
   return printer.errors() > 0 ? exit_input : exit_done;
 }

@@ -22,6 +22,8 @@ std::string front_text(const std::optional<double>& metres_per_second);
 /// A table with one line per event, and below it the ends of the intervals, if there are any.
 TerminalTable event_table_head();
 TerminalTable event_table_row(const slipfront::results::EventResult& result);
+/// One event as a short report in sentences. Empty if it has an error.
+std::string event_report(const slipfront::results::EventResult& result);
 /// Adds two lines about the pulse through a finite-fault model, or one line with the reason why there is no pulse. Adds
 /// nothing if the user did not request a pulse.
 void add_event_pulse(TerminalTable& table, const slipfront::results::EventResult& result);

@@ -35,13 +35,14 @@ EventPrinter::EventPrinter(const CommonOptions& options, const EventShown& shown
   if (options_.csv && has_rows()) put(event_csv_head(shown_.pulse));
 }
 
-EventPrinter::Printed EventPrinter::printed(const EventResult& result) const {
-  Printed p{{}, {}, result.error, result.warnings(), {}, result.posterior && result.posterior->suffices};
+EventPrinter::Printed EventPrinter::printed(const EventResult& result, std::size_t count) const {
+  Printed p{{}, {}, {}, result.error, result.warnings(), {}, result.posterior && result.posterior->suffices};
   if (shown_.population) p.member = member_of(result);
   if (!has_rows()) return p;
   if (is_table()) {
     p.table = event_table_row(result);
     add_event_pulse(*p.table, result);
+    if (count_ + count == 1) p.report = event_report(result);
   } else {
     p.row = options_.json ? event_json(result) : event_csv_row(result, shown_.pulse);
   }
@@ -51,7 +52,7 @@ EventPrinter::Printed EventPrinter::printed(const EventResult& result) const {
 void EventPrinter::take(Printed&& p) {
   if (options_.json) put(count_ == 0 ? "\n" : ",\n");
   if (p.table)
-    table_.append(std::move(*p.table));
+    table_.append(std::move(*p.table)), report_ = std::move(p.report);
   else
     put(p.row);
   ++count_;
@@ -93,18 +94,19 @@ void EventPrinter::complain_of_columns(const CatalogueColumns& columns) const {
 }
 
 void EventPrinter::print_table(const CatalogueColumns& columns, const std::string& written) const {
-  if (has_rows()) put(table_.text());
-  if (has_rows() && !options_.quiet && sampled_)
-    put("\n" +
-        fitted(
-            "V / c and the columns after it are inferred. Where a row has 5 % and 95 % below it, they are medians of "
-            "the posterior, which need not equal the observed values."));
+  const bool is_report = count_ == 1 && !options_.wide;
+  if (has_rows()) put(is_report ? report_ : table_.text());
+  if (has_rows() && !options_.quiet && sampled_ && !is_report)
+    put("\n" + fitted("The columns after the observed velocities are inferred. Where a row has 5 % and 95 % below it, "
+                      "they are medians of "
+                      "the posterior, which need not equal the observed values."));
   if (shown_.population) put(population_table(population_.decades(), count_, errors_));
   if (options_.quiet) return;
   print_notes(columns);
   if (written.empty()) return;
-  put(fmt::format("{}{}{} written to {}\n", shown_.population || !warnings_.empty() ? "\n" : "", events(count_),
-                  errors_ > 0 ? fmt::format(", {} of them with errors,", errors_) : "", written));
+  put((shown_.population || !warnings_.empty() ? "\n" : "") +
+      fitted(fmt::format("{}{} written to {}", events(count_),
+                         errors_ > 0 ? fmt::format(", {} of them with errors,", errors_) : "", written)));
 }
 
 /// Warnings, most frequent first, each once.
@@ -124,6 +126,6 @@ void EventPrinter::print_notes(const CatalogueColumns& columns) const {
       put(fitted(fmt::format("  {}: {}", file, not_understood(table.ignored_quantities)), 4));
   constexpr std::size_t most = 15;
   for (std::size_t i = 0; i < std::min(notes.size(), most); ++i)
-    put(fitted(fmt::format("  {} ({})", notes[i].second, events(notes[i].first)), 4));
+    put(fitted("  " + notes[i].second + (count_ == 1 ? "" : fmt::format(" ({})", events(notes[i].first))), 4));
   if (notes.size() > most) put(fmt::format("  ... and {} more\n", notes.size() - most));
 }

@@ -26,6 +26,7 @@ class EventPrinter {
   struct Printed {
     std::string row;                     ///< text of the event in JSON or CSV
     std::optional<TerminalTable> table;  ///< its rows if a table is printed
+    std::string report;                  ///< the event in sentences, if it is the only one
     std::string error;
     std::vector<std::string> warnings;
     std::optional<slipfront::catalogue::Member> member;
@@ -33,7 +34,8 @@ class EventPrinter {
   };
 
   EventPrinter(const CommonOptions& options, const EventShown& shown);
-  Printed printed(const slipfront::results::EventResult& result) const;
+  /// `count` events arrive together with this one.
+  Printed printed(const slipfront::results::EventResult& result, std::size_t count) const;
   void take(Printed&& printed);
 
   /// Ends the output. `written` is the file that was written, or empty.
@@ -52,6 +54,7 @@ class EventPrinter {
   std::size_t count_ = 0, errors_ = 0;
   bool sampled_ = false;
   TerminalTable table_;
+  std::string report_;  ///< the event in sentences, if it is the only one so far
   std::map<std::string, std::size_t> warnings_;
   slipfront::catalogue::Population population_;
 };

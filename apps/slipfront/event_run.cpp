@@ -114,7 +114,8 @@ int print_events(const EventArguments& a) {
         if (!printer)
           printer.emplace(a.common, EventShown{.rows = !a.population, .population = a.population, .pulse = a.pulse});
         auto printed = in_parallel<EventPrinter::Printed>(
-            results.size(), a.common.threads, [&](std::size_t i) { return printer->printed(results[i]); }, 1);
+            results.size(), a.common.threads,
+            [&](std::size_t i) { return printer->printed(results[i], results.size()); }, 1);
         for (auto& p : printed) printer->take(std::move(p));
       });
   return finish(*printer, a, columns, {});
@@ -139,6 +140,6 @@ int write_events(const EventArguments& a) {
   }
   if (is_csv(path)) slipfront::record::write_events_csv(path, result.events, a.pulse);
   EventPrinter printer(a.common, {.rows = false, .population = a.population, .pulse = a.pulse});
-  for (const EventResult& event : result.events) printer.take(printer.printed(event));
+  for (const EventResult& event : result.events) printer.take(printer.printed(event, result.events.size()));
   return finish(printer, a, columns, path);
 }

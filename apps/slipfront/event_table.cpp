@@ -14,9 +14,9 @@ using EventEstimate = slipfront::inference::Estimate;
 using slipfront::inference::Inferred;
 using slipfront::results::EventResult;
 
-constexpr std::size_t name_width = 34;
+constexpr std::size_t name_width = 32;
 constexpr std::array<TableColumn, 10> event_columns = {
-    {{name_width, true}, {12}, {12}, {9}, {9}, {12}, {12}, {11}, {9}, {9}}};
+    {{name_width, true}, {12}, {12}, {9}, {11}, {9}, {9}, {9}, {9}, {8}}};
 
 /// The name of an event. Of a longer one only the first `name_width` characters.
 std::string name_cell(const std::string& name) {
@@ -38,12 +38,12 @@ struct InferredColumn {
   const std::optional<Inferred>& of(const EventEstimate& e) const { return is_bound(e) ? e.*bound : e.*value; }
 };
 constexpr std::array<InferredColumn, 7> inferred_columns = {
-    {{3, &EventEstimate::rupture_velocity},
-     {4, &EventEstimate::stress, 1, 4, &EventEstimate::stress_bound},
-     {5, &EventEstimate::frictionless_slip_velocity},
-     {6, &EventEstimate::slip_velocity_ratio},
-     {7, &EventEstimate::contact_ratio, 1, 3, &EventEstimate::contact_ratio_bound},
-     {8, &EventEstimate::stress_pa, 1e6, 4, &EventEstimate::stress_pa_bound},
+    {{3, &EventEstimate::stress_pa, 1e6, 4, &EventEstimate::stress_pa_bound},
+     {4, &EventEstimate::contact_ratio, 1, 3, &EventEstimate::contact_ratio_bound},
+     {5, &EventEstimate::rupture_velocity},
+     {6, &EventEstimate::stress, 1, 4, &EventEstimate::stress_bound},
+     {7, &EventEstimate::frictionless_slip_velocity},
+     {8, &EventEstimate::slip_velocity_ratio},
      {9, &EventEstimate::damping_number, 1, 3}}};
 
 /// Adds a line with one end of each interval below the values, if there are intervals.
@@ -74,10 +74,9 @@ std::string front_text(const std::optional<double>& v) {
 
 TerminalTable event_table_head() {
   TerminalTable table(event_columns);
-  table.add({"", "observed", "observed"});
-  table.add({"", "rupture", "slip", "", "stress", "frictionless", "observed /", "contact", "stress", "damping"});
-  table.add(
-      {"event", "velocity", "velocity", "V / c", "mu A / pi", "c A / pi", "frictionless", "ratio A", "MPa", "C T"});
+  table.add({"", "observed", "observed", "", "", "", "", "slip vel.", "share"});
+  table.add({"", "rupture", "slip", "stress", "contact", "", "stress", "without", "friction", "damping"});
+  table.add({"event", "velocity", "velocity", "MPa", "ratio A", "V / c", "mu A / pi", "c A / pi", "leaves", "C T"});
   return table;
 }
 
@@ -85,8 +84,7 @@ TerminalTable event_table_row(const EventResult& result) {
   TerminalTable table(event_columns);
   std::string name = name_cell(result.observation.name);
   if (!result.estimate) {
-    name.append(name_width - characters(name), ' ');
-    table.add_note(name + " error: " + result.error);
+    table.add_note(name + ": error: " + result.error);
     return table;
   }
   const EventEstimate& e = *result.estimate;
@@ -114,6 +112,6 @@ void add_event_pulse(TerminalTable& table, const EventResult& result) {
   const auto number = [](const std::optional<double>& x) { return x ? fmt::format("{:.3g}", *x) : std::string("-"); };
   table.add_note(fmt::format("  pulse: front velocity over the model's {}; {} of {} columns reached by {:.3g} s",
                              number(p.front_velocity_ratio), p.reached, p.x.size(), p.end));
-  table.add_note(fmt::format("         correlation of slip {}; contact ratio A by its size {}",
+  table.add_note(fmt::format("         correlation of slip {}; contact ratio A by the amount of slip {}",
                              number(p.correlation_of_slip), number(p.contact_ratio)));
 }

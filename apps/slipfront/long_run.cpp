@@ -113,7 +113,7 @@ medium::UnitInSi unit_of(const output::SlipEventColumn& column, const scenario::
 
 /// The events as a table.
 std::string table_of(const std::vector<output::SlipEvent>& events, const scenario::Scenario& scenario) {
-  std::string count = fmt::format("{} events\n", events.size());
+  std::string count = fmt::format("{} event{}\n", events.size(), events.size() == 1 ? "" : "s");
   if (events.empty()) return count;
   const std::vector<TableColumn> columns(output::slip_event_columns().size(), {.width = 17, .gap = 0});
   TerminalTable table(columns);
@@ -204,9 +204,12 @@ std::string summary_json(const std::vector<run::Row>& summary, const std::vector
   return text_of(j);
 }
 
-/// A value in the table.
+/// A value in the table. It has all digits only in lines without a largest width.
 struct AsText {
-  std::string operator()(double value) const { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
+  std::string operator()(double value) const {
+    if (!std::isfinite(value)) return "null";
+    return terminal_width() ? fmt::format("{:.8g}", value) : fmt::format("{}", value);
+  }
   std::string operator()(long value) const { return fmt::format("{}", value); }
   std::string operator()(const std::string& value) const { return fmt::format("\"{}\"", value); }
   std::string operator()(const std::vector<double>&) const { return {}; }
@@ -215,19 +218,44 @@ struct AsText {
 /// One line of the table.
 void put_line(const std::string& key, const std::string& value, double error, const run::Row& row) {
   const std::string known = std::isfinite(error) ? fmt::format("+- {:.2g}", error) : "";
-  put(fitted(
-      fmt::format("{:<25} {:<24} {:<12} {}", key, value, known, with_reason(row.meaning(), std::string(row.reason()))),
-      25 + 1 + 24 + 1 + 12 + 1));
+  const std::size_t digits = terminal_width() ? 14 : 24, errors = terminal_width() ? 10 : 12;
+  put(fitted(fmt::format("{:<26} {:<{}} {:<{}} {}", key, value, digits, known, errors,
+                         with_reason(row.meaning(), std::string(row.reason()))),
+             26 + 1 + digits + 1 + errors + 1));
 }
+
+/// Whether the row is about something that the run does not have: it has no value, or it is an energy or a pressure
+/// that is exactly 0.
+bool is_irrelevant(const run::Row& row) {
+  const auto* const value = std::get_if<double>(&row.value);
+  if (!value) return false;
+  const bool may_be_zero = row.key().starts_with("energy_") || row.key().starts_with("pore_pressure");
+  return !std::isfinite(*value) || (*value == 0 && may_be_zero);
+}
+
+std::string name_of(const run::Row& row) { return (row.group.empty() ? "" : row.group + ".") + std::string(row.key()); }
 
 /// The lines of a row. The values of a list are numbered.
 void put_row(const run::Row& row) {
-  const std::string key = (row.group.empty() ? "" : row.group + ".") + std::string(row.key());
+  const std::string key = name_of(row);
   const auto* const list = std::get_if<std::vector<double>>(&row.value);
   const auto error = [&](std::size_t i) { return i < row.errors.size() ? row.errors[i] : HUGE_VAL; };
   if (!list) return put_line(key, std::visit(AsText{}, row.value), error(0), row);
   for (std::size_t i = 0; i < list->size(); ++i)
     put_line(fmt::format("{}[{}]", key, i), AsText{}((*list)[i]), error(i), row);
+}
+
+/// The rows, and the names of those that are left out.
+void put_rows(const std::vector<run::Row>& rows) {
+  std::vector<std::string> left_out;
+  for (const run::Row& row : rows)
+    if (terminal_width() && is_irrelevant(row))
+      left_out.push_back(name_of(row));
+    else
+      put_row(row);
+  if (!left_out.empty())
+    put(fitted(fmt::format("0 or without a value (--wide prints them and the reasons): {}", fmt::join(left_out, ", ")),
+               2));
 }
 
 }  // namespace
@@ -257,10 +285,10 @@ void print_summary(const scenario::Scenario& scenario, std::vector<run::Row> sum
     return;
   }
   if (!scenario.title.empty()) put(fitted(scenario.title));
-  for (const run::Row& row : summary) put_row(row);
+  put_rows(summary);
   if (events) put(table_of(*events, scenario));
   const std::string& output = a.output.empty() ? a.resume : a.output;
-  if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");
+  if (!output.empty() && !a.common.quiet) put(fitted("written to " + output));
 }
 
 void require_output(const ScenarioArguments& arguments, bool of_finished, double bytes) {

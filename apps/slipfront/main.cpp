@@ -14,6 +14,7 @@
 #include "foundation/text/printable.hpp"
 #include "interrupts.hpp"
 #include "slipfront/error.hpp"
+#include "terminal_table.hpp"
 
 const slipfront::Ranks* the_ranks = nullptr;
 
@@ -21,13 +22,19 @@ void complain(std::string_view line) {
   std::fprintf(stderr, "slipfront: %s\n", slipfront::printable_message(line).c_str());
 }
 
+void add_wide(CommandLine& command, bool& wide) {
+  command.flag("--wide", wide, "All columns side by side, all rows and digits (default: what fits the terminal)");
+}
+
 void add_common_options(CommandLine& command, CommonOptions& options, bool with_csv) {
   const Option json = command.flag("--json", options.json, "One JSON object on stdout, nothing else");
   if (with_csv) command.flag("--csv", options.csv, "One CSV row each, full precision").excludes(json);
   command.flag("--quiet", options.quiet, "No notes, no warnings");
+  add_wide(command, options.wide);
   command.option("--threads", "N", options.threads, "Threads; results do not depend on it (default: all cores)")
       .in_range(1, 4096);
   command.when_parsed([&options] {
+    if (options.wide) print_whole_lines();
     options.threads = slipfront::sensible_threads(options.threads);
     if (options.threads > 0) return;  // else the cores of this machine, shared by the ranks on it
     const long ranks = std::lround(the_ranks->size() * the_ranks->share_of_machine());
@@ -56,7 +63,7 @@ int run_command(int argc, char** argv) {
     return exit_input;
   }
   if (version || kind == ProgramLine::Parsed::Kind::help) {
-    if (first) put(!version ? text : json ? text_of(build_facts()) + "\n" : SLIPFRONT_VERSION "\n");
+    if (first) put(!version ? fitted_help(text) : json ? text_of(build_facts()) + "\n" : SLIPFRONT_VERSION "\n");
     finish_stdout();
     return exit_done;
   }

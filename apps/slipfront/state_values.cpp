@@ -76,13 +76,15 @@ std::vector<StateValue> from_stdin(const std::string& option) {
 
 }  // namespace
 
-std::vector<StateValue> state_values(const std::string& text, const std::string& option) {
+std::vector<StateValue> state_values(const std::string& text, const std::string& option,
+                                     const std::function<double(const std::string&)>& in_model) {
   if (text == "-") return from_stdin(option);
   if (text.find(':') != std::string::npos) return range(text, option);
   if (const auto value = number(text)) return {{*value, 0}};
+  if (text.find_first_of("0123456789") < text.find_last_of(' ')) return {{in_model(text), 0}};
   throw InputError({.file = "command line",
                     .key = option,
                     .value = text,
                     .problem = "not a finite number",
-                    .allowed = "a number, a range first:last:count, or - for stdin"});
+                    .allowed = "a number, a number with a unit, a range first:last:count, or - for stdin"});
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ struct StateValue {
 
 /// The numbers that one value of --stress, --rupture-velocity or --slip-velocity stands for. It may be a number or a
 /// range `a:b:n` of n evenly spaced values that includes both ends. The values of `a:b:n:log` are evenly spaced in the
-/// logarithm. `-` reads one number per line from stdin, without blank lines and comments after '#'. \throws InputError
-/// that names the option or the line.
-std::vector<StateValue> state_values(const std::string& text, const std::string& option);
+/// logarithm. `-` reads one number per line from stdin, without blank lines and comments after '#'. A number with a
+/// unit goes to `in_model`. \throws InputError that names the option or the line.
+std::vector<StateValue> state_values(const std::string& text, const std::string& option,
+                                     const std::function<double(const std::string&)>& in_model);

@@ -15,6 +15,9 @@
 namespace {
 
 constexpr std::size_t least_name = 8;  // characters of a name; with fewer, many names look equal
+constexpr std::size_t usual_width = 80;
+
+bool has_width = true;
 
 bool begins_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0u) != 0x80u; }
 
@@ -27,8 +30,8 @@ std::string without_trailing_blanks(std::string_view line) {
   return std::string(line.substr(0, line.find_last_not_of(' ') + 1));
 }
 
-std::optional<std::size_t> measured_width() {
-  if (isatty(STDOUT_FILENO) == 0) return std::nullopt;
+std::size_t measured_width() {
+  if (isatty(STDOUT_FILENO) == 0) return usual_width;
   std::size_t width = 0;
   if (const char* const wanted = std::getenv("COLUMNS")) {
     const std::string_view text = wanted;
@@ -36,7 +39,7 @@ std::optional<std::size_t> measured_width() {
     if (error == std::errc() && end == text.data() + text.size() && width > 0) return width;
   }
   winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return std::nullopt;
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return usual_width;
   return size.ws_col;
 }
 
@@ -52,9 +55,11 @@ std::size_t after_characters(std::string_view text, std::size_t count) {
   return text.size();
 }
 
+void print_whole_lines() { has_width = false; }
+
 std::optional<std::size_t> terminal_width() {
-  static const std::optional<std::size_t> width = measured_width();
-  return width;
+  static const std::size_t width = measured_width();
+  return has_width ? std::optional(width) : std::nullopt;
 }
 
 std::string with_reason(std::string meaning, const std::string& reason) {
@@ -67,7 +72,7 @@ std::string fitted(std::string_view line, std::size_t indent) {
   if (!width) return std::string(line) + "\n";
   const std::string shown = slipfront::printable(line);
   std::string_view rest = shown;
-  indent = std::min(indent, *width / 2);
+  indent = std::min(indent, 2 * *width / 3);
   std::string out;
   while (true) {
     const std::size_t end = after_characters(rest, *width - (out.empty() ? 0 : indent));
@@ -79,6 +84,18 @@ std::string fitted(std::string_view line, std::size_t indent) {
     out += without_trailing_blanks(rest.substr(0, blank)) + "\n" + std::string(indent, ' ');
     rest.remove_prefix(next);
   }
+}
+
+std::string fitted_help(std::string_view help) {
+  constexpr std::size_t column = 30;  // the meanings begin here
+  const std::size_t examples = std::min(help.find("\nExamples:"), help.size());
+  std::string out;
+  for (std::string_view rest = help.substr(0, examples); !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    out += fitted(rest.substr(0, end), rest.starts_with(' ') ? column : 0);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return out.append(help.substr(examples));
 }
 
 void TerminalTable::add(std::vector<std::string> cells, Label label) {

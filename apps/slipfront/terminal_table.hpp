@@ -12,13 +12,18 @@ std::size_t characters(std::string_view text);
 /// Position in a UTF-8 text after its first `count` characters.
 std::size_t after_characters(std::string_view text, std::size_t count);
 
-/// Number of characters in a line of the terminal: COLUMNS, or else the width that the terminal reports. Empty if
-/// stdout is not a terminal or its width is unknown.
+/// Largest number of characters in a line: COLUMNS, or else the width that the terminal reports. It is 80 if stdout is
+/// not a terminal or its width is unknown, and absent after `print_whole_lines`.
 std::optional<std::size_t> terminal_width();
+/// Prints lines and tables at their full width, whatever the terminal (--wide).
+void print_whole_lines();
 
-/// A line of text, with its line break. On a terminal it is broken at blanks, and its further lines begin with `indent`
+/// A line of text, with its line break. It is broken at blanks to fit, and its further lines begin with `indent`
 /// blanks. A word that is longer than a line stays whole, so that paths can be copied.
 std::string fitted(std::string_view line, std::size_t indent = 0);
+
+/// The help of a command with lines that fit. Examples stay whole, so that they can be copied.
+std::string fitted_help(std::string_view help);
 
 /// The meaning of a number, with the reason if the number has no value.
 std::string with_reason(std::string meaning, const std::string& reason);
@@ -29,8 +34,7 @@ struct TableColumn {
   std::size_t gap = 1;   ///< number of blanks before the column
 };
 
-/// A table for people. In a file or a pipe it has the widths of its columns, so that its layout never changes. On a
-/// terminal that is too narrow for it, the table is divided into blocks of columns. Each block repeats the first
+/// A table for people. If it is wider than a line, it is divided into blocks of columns. Each block repeats the first
 /// column, and leaves out rows that are empty otherwise.
 class TerminalTable {
  public:
@@ -71,6 +75,6 @@ class TerminalTable {
   std::vector<Block> blocks(std::size_t width) const;
 
   std::span<const TableColumn> columns_;
-  std::string text_;       ///< the table so far, if stdout is not a terminal
-  std::vector<Row> rows_;  ///< the rows so far, if it is one
+  std::string text_;       ///< the table so far, if lines have no largest width
+  std::vector<Row> rows_;  ///< the rows so far, if they have one
 };

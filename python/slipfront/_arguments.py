@@ -3,15 +3,22 @@
 import argparse
 import os
 import sys
+import textwrap
 
+from . import _table
 from ._slipfront import printable, require_other_file, sensible_threads
 
 
 class Help(argparse.HelpFormatter):
-    """Fills paragraphs, but keeps the lines of the examples."""
+    """Fills paragraphs. A long example is continued on the next line as a shell reads it."""
 
     def _fill_text(self, text, width, indent):
-        return text if text.startswith("Examples:") else super()._fill_text(text, width, indent)
+        if not text.startswith("Examples:"):
+            return super()._fill_text(text, width, indent)
+        lines = (textwrap.wrap(line, width, initial_indent="  " * (i > 0), subsequent_indent=" " * 6,
+                               break_long_words=False, break_on_hyphens=False)
+                 for i, line in enumerate(text.splitlines()))
+        return "\n".join(" \\\n".join(parts) for parts in lines)
 
 
 class Arguments(argparse.ArgumentParser):
@@ -19,15 +26,17 @@ class Arguments(argparse.ArgumentParser):
 
     def __init__(self, name, description, examples):
         super().__init__(prog=f"slipfront {name}", description=description, allow_abbrev=False,
-                         epilog="\n  ".join(["Examples:", *examples]), formatter_class=Help)
+                         epilog="\n".join(["Examples:", *examples]), formatter_class=Help)
         self.add_argument("--json", action="store_true", help="one JSON object on stdout, nothing else")
         self.add_argument("--quiet", action="store_true", help="no notes, no progress")
+        self.add_argument("--wide", action="store_true", help="all columns side by side (default: what fits the terminal)")
         self.add_argument("--threads", type=threads, default=len(os.sched_getaffinity(0)), metavar="N",
                           help="threads; results do not depend on it (default: all cores)")
 
     def parse_args(self, args=None, namespace=None):
         """Parses the words, and refuses to write to a file that another word names. A sweep may write to the file from which it resumes."""
         options = super().parse_args(args, namespace)
+        _table.Lines.whole = options.wide
         if output := getattr(options, "output", None):
             words = [value for name, value in vars(options).items() if name not in ("output", "resume")]
             require_other_file(os.fsencode(output), [os.fsencode(text) for value in words for text in (value if isinstance(value, list) else [value]) if isinstance(text, str)])
@@ -64,8 +73,8 @@ def netcdf_name(text):
 
 
 def put(text):
-    """Prints what may hold names of files, as it may be shown."""
-    print("\n".join(printable(os.fsencode(line)) for line in text.split("\n")))
+    """Prints what may hold names of files, as it may be shown, in lines that fit."""
+    print("\n".join(_table.fitted(printable(os.fsencode(line))) for line in text.split("\n")))
 
 
 def threads(text):

@@ -5,6 +5,7 @@ import json
 import sys
 
 from ._arguments import Arguments, add_units, chosen_units, netcdf_name, put
+from ._table import table
 
 #: Titles of the table for the terminal, the variable of each, and its name for the unit.
 COLUMNS = (("event", "front_event"), ("begin", "front_begin"), ("end", "front_end"), ("onset", "front_onset"), ("V", "front_velocity"),
@@ -56,15 +57,13 @@ def cell(value):
 
 
 def rows(data):
-    """Yields the lines of the table of fronts, below the titles and the units."""
+    """Returns the table of fronts, below the titles and the units."""
     cells = []
     for title, name in COLUMNS:
         attributes = data[name].attrs
         unit = attributes.get("dimensional_unit") or attributes.get("units", "")
         cells.append([title, "" if unit == "1" else unit.replace("m s-1", "m/s"), *(cell(value) for value in data[name].values.tolist())])
-    widths = [max(map(len, column)) for column in cells]
-    for line in zip(*cells):
-        yield "  ".join(text.rjust(width) for text, width in zip(line, widths)).rstrip()
+    return table(cells)
 
 
 def write_csv(data, stream):
@@ -100,7 +99,7 @@ def main(argv) -> int:
     if options.json:
         print(json.dumps(as_json(data, options.output)))
         return 0
-    put("\n".join([*rows(data), "", *summary(data)]))
+    put("\n".join([rows(data), "", *summary(data)]))
     if options.output and not options.quiet:
         put(f"written to {options.output}")
     return 0

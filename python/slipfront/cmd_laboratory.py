@@ -7,6 +7,7 @@ import sys
 from ._arguments import Arguments, netcdf_name, put
 from ._messages import DONE, INPUT, complain
 from ._shown import shown
+from ._table import table
 
 #: Titles of the table for the terminal, the variable in units of the model, and in SI units.
 COLUMNS = (("tau / sigma_N", "stress_ratio"), ("V", "front_velocity"), ("predicted", "predicted_front_velocity"), ("deviation", "deviation"))
@@ -106,16 +107,14 @@ def summary(data, si):
 
 
 def rows(data, si):
-    """Yields the lines of the table of fronts, below the title and the units."""
+    """Returns the table of fronts, below the title and the units."""
     unit = "m/s" if si else "c"
     cells = [["front", "", *(shown(name, WIDEST) for name in data["name"].values)]]
     for title, name in COLUMNS:
         is_velocity = data[name].attrs.get("dimensional_unit") == "c"
         values = data[name].values * (velocity_scale(data, si) if is_velocity else 1)
         cells.append([title, unit if is_velocity else "", *("-" if value != value else f"{value:.3g}" for value in values)])
-    widths = [max(map(len, column)) for column in cells]
-    for first, *others in zip(*cells):
-        yield "  ".join([first.ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(others, widths[1:]))]).rstrip()
+    return table(cells, left=1)
 
 
 def report(data, options):
@@ -123,7 +122,7 @@ def report(data, options):
     if options.json:
         print(json.dumps(as_json(data, options.output, options.si)))
         return
-    put("\n".join([*rows(data, options.si), "", *summary(data, options.si)]))
+    put("\n".join([rows(data, options.si), "", *summary(data, options.si)]))
     if options.quiet:
         return
     for name, reason in zip(data["name"].values, data["reason"].values):

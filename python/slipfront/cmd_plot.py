@@ -42,7 +42,7 @@ def draw(dataset, kind, chosen):
 
 def main(argv) -> int:
     """Draws the pictures of a file. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (matplotlib)."""
-    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare, sweep, event, fronts and laboratory, of the CSV of relations and event, and of samples.",
+    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, plane, compare, sweep, event, fronts and laboratory, of the CSV of relations and event, and of samples.",
                        ["slipfront plot pulse.nc", "slipfront plot pulse.nc --kind profiles -o profiles.pdf", "slipfront chain cases/stick-slip.toml --set domain.left=-12.566 domain.right=12.566 time.end=1e6 output.every=2e4 -o loaded.nc",
                         "slipfront plot loaded.nc --kind loading --until-failure", "slipfront plot loaded.nc --kind event --event 3 -o event.pdf",
                         "slipfront plot sweep.nc --variable slip_at_origin -o slip.png"])

@@ -5,6 +5,7 @@ import warnings
 
 from ._arguments import Arguments, netcdf_name, progress, put
 from ._population.priors import NAMES, PARAMETERS
+from ._table import table
 
 #: Largest R-hat of a sample that has converged.
 CONVERGED = 1.05
@@ -52,15 +53,14 @@ def summary(data):
     return {name: dict(zip(("5 %", "50 %", "95 %"), data[name].quantile([0.05, 0.5, 0.95]).values.tolist())) for name in NAMES}
 
 
-def table(data):
+def parameters_of(data):
     """Returns the parameters as text, next to their priors."""
     units = {parameter.name: parameter.units for parameter in PARAMETERS}
-    rows: list[tuple[str, ...]] = [("parameter", "unit", "5 %", "median", "95 %", "prior: median", "factor")]
+    rows: list[tuple[str, ...]] = [("parameter", "unit", "5 %", "median", "95 %", "prior", "factor")]
     for name, numbers in summary(data).items():
         rows.append((name, "" if units[name] == "1" else units[name], *(f"{value:.4g}" for value in numbers.values()),
                      f"{data[name].prior_median:.4g}", f"{data[name].prior_factor:.3g}"))
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    return "\n".join("  ".join([row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:]))]).rstrip() for row in rows)
+    return table(list(zip(*rows)), left=1)
 
 
 def notes(data):
@@ -89,7 +89,7 @@ def main(argv) -> int:
         print(json.dumps({"parameters": summary(data), "events": data.name.values.tolist(), "left_out": data.left_out.values.tolist(), "file": options.output,
                           "rhat": data.rhat, "effective_draws": data.effective_draws, "wall_seconds": data.wall_seconds}))
         return 0
-    put(table(data))
+    put(parameters_of(data))
     if not options.quiet:
         put("\n".join(notes(data)))
         if options.output:

@@ -4,14 +4,13 @@ import collections
 import itertools
 import json
 import pathlib
-import shutil
-import sys
 import textwrap
 import time
 import warnings
 
 from ._arguments import Arguments, file_name, progress, put
 from ._optional import import_optional
+from ._table import width
 
 
 def table(rows) -> str:
@@ -20,10 +19,10 @@ def table(rows) -> str:
     cells += [(row["what"], f"{row['printed']:>11} {row['printed_digits']:>9} {row['computed']:>10.4g}", row["verdict"]) for row in rows]
     longest, numbers = 70, 1 + len(cells[0][1]) + 2
     whole = longest + numbers + max(len(verdict) for _, _, verdict in cells)
-    width = shutil.get_terminal_size((whole, 24)).columns if sys.stdout.isatty() else whole
-    if width >= whole:
+    most = width() or whole
+    if most >= whole:
         return "\n".join(f"{what[:longest]:<{longest}} {values}  {verdict}" for what, values, verdict in cells)
-    for_texts = max(width - numbers, 30)
+    for_texts = max(most - numbers, 30)
     described = for_texts * 3 // 5
     lines = []
     for what, values, verdict in cells:

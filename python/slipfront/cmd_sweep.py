@@ -4,7 +4,6 @@ import csv
 import itertools
 import json
 import os
-import shutil
 import sys
 import warnings
 
@@ -14,6 +13,7 @@ from ._grid import values_of
 from ._messages import DONE, NUMERICS, Interruption, complain
 from ._shown import shown
 from ._slipfront import InputError
+from ._table import GAP, table, width
 
 #: Largest number of points in the table for the terminal.
 MOST_ROWS = 40
@@ -126,37 +126,32 @@ def short(value):
     return f"{value:.6g}" if isinstance(value, float) else shown(value, WIDEST)
 
 
-def column(title, unit, cells):
-    longest = max(map(len, (title, unit, *cells)))
-    return [cell.rjust(longest) for cell in (title, unit, *cells)]
-
-
 def width_of(columns):
-    return sum(len(cells[0]) + 2 for cells in columns) - 2
+    return sum(max(map(len, cells)) + GAP for cells in columns) - GAP
 
 
-def table(data, width):
-    """Returns a table of the points as text: the axes, and as many numbers as fit into the width."""
+def points_of(data, most):
+    """Returns a table of the points as text: the axes, and as many numbers as fit into lines of `most` characters."""
     rows = list(itertools.islice(rows_of(data), MOST_ROWS))
     numbers = []
     for name in data.data_vars:
         if name != "failure":
             attrs = data[name].attrs
-            numbers.append(column(name, attrs.get("dimensional_unit", attrs["units"]), ["failed" if row["failure"] else short(row[name]) for row in rows]))
+            numbers.append([name, attrs.get("dimensional_unit", attrs["units"]), *("failed" if row["failure"] else short(row[name]) for row in rows)])
 
     def axes(title):
         keys = {data[dim].attrs["key"]: data[dim].attrs.get("dimensional_unit", "") for dim in data["failure"].dims}
-        return [column(title(key), unit, [short(row[key]) for row in rows]) for key, unit in keys.items()]
+        return [[title(key), unit, *(short(row[key]) for row in rows)] for key, unit in keys.items()]
 
     columns = axes(lambda key: key)
-    if width_of(columns + numbers[:1]) > width:
+    if width_of(columns + numbers[:1]) > most:
         columns = axes(lambda key: key.rpartition(".")[2])
     columns += numbers[:1]
     for cells in numbers[1:]:
-        if width_of([*columns, cells]) > width:
+        if width_of([*columns, cells]) > most:
             break
         columns.append(cells)
-    return "\n".join("  ".join(cells).rstrip() for cells in zip(*columns))
+    return table(columns)
 
 
 def known(value):
@@ -179,7 +174,7 @@ def report(data, options):
                 out.writerow(row)
             out.writerow([known(value) for value in row.values()])
     else:
-        put(table(data, shutil.get_terminal_size().columns if sys.stdout.isatty() else 80))
+        put(points_of(data, width() or float("inf")))
         if data["failure"].size > MOST_ROWS and not options.quiet:
             put(f"... and {data['failure'].size - MOST_ROWS} more points; --csv prints all of them")
         if file and not options.quiet:

@@ -1,6 +1,8 @@
 #include "slipfront/medium/quantity.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -90,6 +92,26 @@ std::optional<std::string> unit_of(std::string_view text) {
   return parse_unit(unit) ? std::optional(std::move(unit)) : std::nullopt;
 }
 
+namespace {
+
+/// The usual unit that differs from `unit` only in upper and lower case. Empty if there is none.
+std::string_view usual_unit_like(std::string_view unit, const Kind& wanted) {
+  static constexpr std::string_view usual[] = {
+      "Pa",    "kPa",    "MPa",    "GPa",    "bar",  "m/s",   "km/s", "cm/s", "mm/s",  "um/s",  "mm/yr",
+      "cm/yr", "km/day", "mm/day", "m",      "km",   "cm",    "mm",   "um",   "nm",    "km2",   "m2",
+      "s",     "ms",     "min",    "hours",  "days", "weeks", "yr",   "N m",  "kg/m3", "g/cm3", "Pa/m",
+      "MPa/m", "MPa/um", "GPa/m",  "MPa/mm", "N/m",  "kN/m",  "MN/m", "%"};
+  const auto equal = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
+  for (const std::string_view one : usual)
+    if (std::equal(one.begin(), one.end(), unit.begin(), unit.end(), equal) && parse_unit(one)->powers == wanted.powers)
+      return one;
+  return {};
+}
+
+}  // namespace
+
 double unit_factor(std::string_view unit, Dimension dimension) {
   const Kind& wanted = kind(dimension);
   // UDUNITS reads "% km/s" as a hundredth of km/s, which nobody means.
@@ -97,6 +119,12 @@ double unit_factor(std::string_view unit, Dimension dimension) {
     throw InputError(
         {.problem = "'%' is not part of the unit of " + std::string(wanted.name), .allowed = wanted.example});
   const std::optional<Unit> parsed = parse_unit(unit);
+  const bool is_wanted = parsed && parsed->powers == wanted.powers && parsed->factor > 0;
+  const std::string_view usual = is_wanted ? std::string_view() : usual_unit_like(unit, wanted);
+  if (!usual.empty())
+    throw InputError(
+        {.problem = "unknown unit '" + std::string(unit) + "' (did you mean '" + std::string(usual) + "'?)",
+         .allowed = wanted.example});
   if (!parsed) throw InputError({.problem = "unknown unit '" + std::string(unit) + "'", .allowed = wanted.example});
   if (parsed->powers != wanted.powers || !(parsed->factor > 0) || !std::isfinite(parsed->factor))
     throw InputError(

@@ -34,6 +34,15 @@ bool is_sampled(const EvaluationOptions& options, const Observation& o) {
   return options.sampling.samples > 0 && (options.sample_all || needs_samples(o));
 }
 
+Frictionless frictionless_of(const inference::InferredQuantities& closed_forms) {
+  const auto value = [](const auto& bound, const auto& known) -> std::optional<double> {
+    if (bound) return bound->value;
+    return known ? std::optional(known->value) : std::nullopt;
+  };
+  return {value(closed_forms.stress_pa_bound, closed_forms.stress_pa),
+          value(closed_forms.contact_ratio_bound, closed_forms.contact_ratio)};
+}
+
 FaultPulse pulse_of(const EventResult& result, const medium::Defaults& defaults) {
   FaultPulse none;
   if (result.observation.subfaults.empty())
@@ -57,6 +66,7 @@ EventResult evaluate(Entry&& entry, const medium::Defaults& defaults, const Eval
     const medium::Elastic elastic = medium::elastic(result.observation, defaults);
     catalogue::derive(result.observation, elastic.shear_modulus, elastic.speed);
     result.estimate = estimate(result.observation, defaults, is_sampled(options, result.observation));
+    result.frictionless = frictionless_of(*result.estimate);
     result.posterior = posterior_of(result);
     if (result.posterior) apply_posterior(*result.estimate, *result.posterior);
     std::vector<LocalState> states = along_fault(result.observation, defaults);

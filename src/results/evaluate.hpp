@@ -15,6 +15,11 @@
 
 namespace slipfront::results {
 
+/// The closed forms at the middles of the observed quantities, where friction is not known.
+struct Frictionless {
+  std::optional<double> stress_pa, contact_ratio;
+};
+
 /// The result for one event of a file: an estimate, or the reason why there is none.
 struct EventResult {
   catalogue::Observation observation;
@@ -26,6 +31,7 @@ struct EventResult {
   std::optional<finite_fault::FaultPulse> pulse;      ///< pulse along its slip distribution, if requested
   std::string error;                                  ///< one line; empty if there is an estimate
   finite_fault::FasterThanC faster_than_c = {};       ///< subfaults that rupture faster than c
+  Frictionless frictionless = {};                     ///< before the posterior replaced the estimate
 
   /// The warnings of the closed forms, then the notes of the posterior.
   std::vector<std::string> warnings() const;

@@ -9,13 +9,14 @@
 #include "record/files/unfinished.hpp"
 #include "record/pulses/pulse_file.hpp"
 #include "run/run.hpp"
+#include "scenario/solver_errors.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::run {
 
 /// Appends the warnings of a finished run to those of its scenario.
 inline void add_warnings(const std::vector<std::string>& of_run, record::PulseMetadata& metadata) {
-  metadata.warnings.insert(metadata.warnings.end(), of_run.begin(), of_run.end());
+  for (const std::string& warning : of_run) metadata.warnings.push_back(scenario::in_results(warning, metadata.units));
 }
 
 /// Writes a run and its saved state to a file.
@@ -103,7 +104,7 @@ bool carry_out(Result& result, const Options& options, double bytes, const Write
     });
   } catch (const NumericsError& error) {  // the run or its last checkpoint has a valid state
     if (run.can_checkpoint()) checkpoints.write();
-    checkpoints.fail(error.what());
+    checkpoints.fail(scenario::in_results(error.what(), result.metadata.units));
   }
   checkpoints.write();
   if (reached) add_warnings(run.warnings(), result.metadata);  // asks all ranks

@@ -33,11 +33,21 @@ struct Continued {
   }
 };
 
+/// The part of the scenario that may differ with a later end, and differs.
+std::string free_part(const Continued& c) {
+  if (c.begun.output.every != c.now.output.every) return "output.every differs";
+  if (c.begun.output.times != c.now.output.times) return "output.times differs";
+  return c.begun.title != c.now.title ? "title differs" : "comments or layout differ";
+}
+
 void require_later_end(const Continued& c) {
   const std::string key = scenario::differing_key(c.begun.text, c.now.text);
-  if (!key.empty() || c.now.end == c.begun.end)
-    c.refuse("resume", "was written by another scenario" + (key.empty() ? "" : ": " + key + " differs"),
+  if (!key.empty())
+    c.refuse("resume", "was written by another scenario: " + key + " differs",
              "the scenario that started the run, with the same --set; time.end may be later");
+  if (c.now.end == c.begun.end)
+    c.refuse("resume", "was written by another scenario: " + free_part(c),
+             "the scenario that started the run, or a later time.end, with which this may differ");
   if (c.now.end < c.begun.end)
     c.refuse("resume",
              "time.end = " + shortest(c.now.end) + " is earlier than the end of the file, " + shortest(c.begun.end),

@@ -30,6 +30,7 @@ void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si) {
   if (!in_si.value_or(scenario.in_si)) return;
   try {
     scenario.results_in.emplace(scenario.medium);
+    for (std::string& warning : scenario.warnings) warning = scenario::in_results(warning, scenario.results_in);
   } catch (const InputError& error) {
     if (in_si)
       throw InputError(
@@ -62,16 +63,18 @@ record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std:
 }
 
 PulsePlan plan_pulse(const scenario::Scenario& scenario) {
-  return scenario::with_keys(scenario::SolverKind::pulse, scenario.file, [&] {
+  const auto make = [&] {
     PulsePlan plan{.problem = scenario::pulse_problem(scenario), .schedule = {}, .need = {}, .file = scenario.file};
     plan.schedule = scenario::pulse_schedule(scenario, plan.problem);
     plan.need = scenario::estimate_of(scenario, plan.problem);
     return plan;
-  });
+  };
+  return scenario::with_units(scenario,
+                              [&] { return scenario::with_keys(scenario::SolverKind::pulse, scenario.file, make); });
 }
 
 ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine) {
-  return scenario::with_keys(scenario::SolverKind::chain, scenario.file, [&] {
+  const auto make = [&] {
     ChainPlan plan{.chain = scenario::chain_problem(scenario),
                    .schedule = scenario::pulse_schedule(scenario, scenario::stated_problem(scenario)),
                    .need = {},
@@ -81,7 +84,9 @@ ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine
     scenario::require_memory(scenario, plan.chain, share_of_machine);
     plan.need = scenario::estimate_of(scenario, plan.chain);
     return plan;
-  });
+  };
+  return scenario::with_units(scenario,
+                              [&] { return scenario::with_keys(scenario::SolverKind::chain, scenario.file, make); });
 }
 
 std::unique_ptr<pulse::Run> begin(const PulsePlan& plan, const Options& options) {
@@ -96,7 +101,7 @@ std::unique_ptr<chain::Run> begin(const ChainPlan& plan, const Options& options)
 }
 
 Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& plan, const Options& options) {
-  Result<pulse::Run> result{.run = begin(plan, options),
+  Result<pulse::Run> result{.run = scenario::with_units(scenario, [&] { return begin(plan, options); }),
                             .metadata = metadata_of(scenario, "pulse", plan.schedule.x_edges)};
   const auto write = [&run = *result.run](const std::string& path, const record::PulseMetadata& metadata,
                                           const std::string& state) {
@@ -108,7 +113,7 @@ Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& pl
 }
 
 Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& plan, const Options& options) {
-  Result<chain::Run> result{.run = begin(plan, options),
+  Result<chain::Run> result{.run = scenario::with_units(scenario, [&] { return begin(plan, options); }),
                             .metadata = metadata_of(scenario, "chain", plan.schedule.x_edges)};
   const chain::Run& run = *result.run;
   if (plan.schedule.displacement) result.metadata.sites = run.sites();

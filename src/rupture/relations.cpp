@@ -39,7 +39,7 @@ void check(double value, const Range& range) {
                         : value <= 0          ? "not positive"
                         : value < range.least ? "too small: a result would be below the smallest double"
                                               : "too large";
-  throw InputError({.key = range.key, .value = digits(value, 17), .problem = problem, .allowed = range.allowed});
+  throw InputError({.key = range.key, .value = shortest(value), .problem = problem, .allowed = range.allowed});
 }
 
 /// Evaluates Eqs. 8-10 from psi on the stressed side and psi at x = 0. Throughout the fan, phi + psi = psi-.

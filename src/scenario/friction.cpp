@@ -197,7 +197,8 @@ friction::AlongInterface FrictionUnits::in_model(const Parameter& p) const {
         [along, unit = normal_stress_in_si() / si_of(p)](double x, double y) { return unit * along(x, y); });
   }
   const double number = uniform(p);
-  if (!limits.hold(number)) throw friction_.refuse(p.name, "out of range", limits.text());
+  if (!limits.hold(number) && !std::isnan(number))  // NaN: the constants of the medium have an error
+    throw friction_.refuse(p.name, "out of range", limits.text());
   const bool stress = value && value->kind == Value::Kind::text && p.dimension == Dimension::force;
   if (!share_ || !stress) return {nullptr, number, number};
   return in_range([share = share_->at, number](double x, double y) { return number / share(x, y); });
@@ -336,7 +337,7 @@ friction::AlongInterface read_parameter(const Section& section, const Parameter&
 /// Checks that keys of contacts and pores which need each other are given together.
 void check_contacts(const Section& section, const friction::Contacts& contacts, Scenario& scenario) {
   const auto needs = [&](std::string_view key, double value, std::string_view other, double other_value) {
-    if (section.has(key) && !(value > 0)) throw section.refuse(key, "out of range", "> 0");
+    if (section.has(key) && value <= 0) throw section.refuse(key, "out of range", "> 0");
     if (section.has(key) && !(other_value > 0))
       throw section.refuse(key, "has no effect without friction." + std::string(other),
                            "leave it out, or with " + std::string(other) + " > 0");

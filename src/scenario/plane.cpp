@@ -73,8 +73,11 @@ void read_edges(const Section& section, Plane& plane) {
     if (!given) throw section.refuse(key, "missing", "[plane] left, right, bottom and top");
     *value = *given;
   }
-  if (!(p.left < p.right)) throw section.refuse("right", "not to the right of plane.left", "> " + shortest(p.left));
-  if (!(p.bottom < p.top)) throw section.refuse("top", "not above plane.bottom", "> " + shortest(p.bottom));
+  const auto above = [&](const char* key, double bound) {
+    return "> " + section.bound_as_written(key, *section.find(key), ModelUnit::position, bound);
+  };
+  if (p.left >= p.right) throw section.refuse("right", "not to the right of plane.left", above("right", p.left));
+  if (p.bottom >= p.top) throw section.refuse("top", "not above plane.bottom", above("top", p.bottom));
   p.bottom /= plane.wave_speed_ratio;
   p.top /= plane.wave_speed_ratio;
 }

@@ -52,7 +52,7 @@ void read_domain(const Document& document, Domain& domain) {
   const Section section(document, "domain");
   domain.left = section.number("left");
   domain.right = section.number("right");
-  if (domain.left && domain.right && !(*domain.left < *domain.right))
+  if (domain.left && domain.right && *domain.left >= *domain.right)  // NaN: [medium] has an error
     throw section.refuse(
         "right", "not to the right of domain.left",
         "> " + section.bound_as_written("right", *section.find("right"), ModelUnit::position, *domain.left));

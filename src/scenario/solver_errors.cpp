@@ -1,6 +1,10 @@
 #include "scenario/solver_errors.hpp"
 
+#include <cctype>
+#include <charconv>
 #include <string_view>
+
+#include "foundation/text/digits.hpp"
 
 namespace slipfront::scenario {
 namespace {
@@ -50,6 +54,46 @@ InputError in_keys(SolverKind solver, const std::string& file, const InputError&
     return InputError(complaint);
   }
   return error;
+}
+
+namespace {
+
+/// A number in a message, such as "t = 2.5".
+struct NumberIn {
+  std::size_t begin, end;
+  double value;
+  bool is_time;
+};
+
+/// The first "t = ", "x = " or "y = " at or after `from` with a number that is not 0 and has no unit.
+std::optional<NumberIn> number_in(std::string_view text, std::size_t from) {
+  for (std::size_t at = text.find(" = ", from); at != std::string_view::npos; at = text.find(" = ", at + 1)) {
+    const bool is_name = at > 0 && std::string_view("txy").find(text[at - 1]) != std::string_view::npos;
+    if (!is_name || (at > 1 && std::isalnum(static_cast<unsigned char>(text[at - 2])) != 0)) continue;
+    const std::size_t begin = at + 3;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data() + begin, text.data() + text.size(), value);
+    const auto after = static_cast<std::size_t>(end - text.data());
+    const bool is_time = text[at - 1] == 't';
+    if (error != std::errc() || value == 0 || text.substr(after).starts_with(is_time ? " s" : " m")) continue;
+    return NumberIn{begin, after, value, is_time};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string in_results(std::string_view message, const std::optional<medium::SiUnits>& units) {
+  if (!units) return std::string(message);
+  const double second = units->of("b / (c A)").value, metre = units->of("b / A").value;
+  std::string text;
+  std::size_t done = 0;
+  for (auto found = number_in(message, 0); found; found = number_in(message, done)) {
+    text += message.substr(done, found->begin - done);
+    text += found->is_time ? digits(found->value * second) + " s" : digits(found->value * metre) + " m";
+    done = found->end;
+  }
+  return text.append(message.substr(done));
 }
 
 }  // namespace slipfront::scenario

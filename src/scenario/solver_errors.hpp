@@ -3,9 +3,12 @@
 /// Errors of solvers in the words of a scenario. Solvers name a part of their problem, such as "contact". Only this
 /// file knows which key gives the part, and which command runs what a solver cannot.
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "slipfront/error.hpp"
+#include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::scenario {
 
@@ -23,6 +26,22 @@ auto with_keys(SolverKind solver, const std::string& file, const Task& task, con
     return task();
   } catch (const InputError& error) {
     throw in_keys(solver, file, error, slip_key);
+  }
+}
+
+/// The message of a solver in the units of the results: "t = 2.5" becomes "t = 3.1e-05 s", and "x = 1" and "y = 1" get
+/// metres. Nothing changes if the results are in the units of the model.
+std::string in_results(std::string_view message, const std::optional<medium::SiUnits>& units);
+
+/// Does `task`, whose errors are in the units of the results.
+template <class Task>
+auto with_units(const Scenario& scenario, const Task& task) {
+  try {
+    return task();
+  } catch (const InputError& error) {
+    Complaint complaint = error.complaint();
+    complaint.problem = in_results(complaint.problem, scenario.results_in);
+    throw InputError(complaint);
   }
 }
 

@@ -44,7 +44,7 @@ class Compare(CommandLine):
         self.assertEqual(len(reason), 1)
         self.assertIn("slip_at_origin", reason[0])
         self.assertNotIn("leading_front,", reason[0])
-        table = self.ok("compare", case, "--scale", "30", "--scale", "60")
+        table = self.ok("compare", case, "--scale", "30", "--scale", "60", "--wide")
         self.assertRegex(table, r"at infinite scale +- +0\.\d+ ")
         self.assertIn(reason[0], table)
         self.assertNotIn("infinite scale for", self.ok("compare", case, "--scale", "60"))  # one scale has no trend

@@ -177,7 +177,7 @@ class Continue(CommandLine):
                 ("pulse", DOMAIN, ("time.end=2", "friction.law=viscous"), ["friction.law differs"]),
                 ("pulse", DOMAIN, ("time.end=0.5",), ["time.end = 0.5", "the end of the file, 1;"]),
                 ("chain", DOMAIN, ("time.end=0.5",), ["time.end = 0.5", "the end of the file, 1;"]),
-                ("pulse", DOMAIN, ("output.every=0.4",), ["another scenario"]),
+                ("pulse", DOMAIN, ("output.every=0.4",), ["another scenario", "output.every differs", "a later time.end"]),
                 ("pulse", DOMAIN, ("time.end=2", "output.every=0.4"), ["output times", "first at t = 0.3"]),
                 ("pulse", DOMAIN, ("time.end=2", "output.every=0.15"), ["output times", "first at t = 0.15"]),
                 ("pulse", (), ("time.end=2",), ["domain", "with end 1 of the file", "with end 2", "domain.left and domain.right"]),

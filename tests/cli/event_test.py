@@ -130,7 +130,8 @@ class Event(CommandLine):
         row, = csv.DictReader(io.StringIO(self.ok("event", path, "--csv")))
         self.assertEqual([float(row["stress_pa_bound" + end]) for end in ("", "_low", "_high")], [event["stress_pa_bound"], low, high])
         self.assertEqual(row["stress_pa"], "")
-        self.assertIn(f">={event['stress_pa_bound'] / 1e6:.4g}", self.ok("event", path))
+        self.assertIn(f">={event['stress_pa_bound'] / 1e6:.4g}", self.ok("event", path, "--wide"))
+        self.assertIn(f"is at least {event['stress_pa_bound'] / 1e6:.4g} MPa", self.ok("event", path))
         folder = os.path.dirname(path)
         self.refused(2, "event", path, "--draws", "9", says=["--draws", "-o OUT.nc"])
         self.refused(2, "event", path, "--draws", "9", "-o", os.path.join(folder, "a.csv"), says=["OUT.nc, with --draws"])
@@ -227,7 +228,7 @@ class Event(CommandLine):
         for x, model, front in zip(pulse["x_m"], pulse["model_rupture_time_s"], pulse["pulse_front_time_s"]):
             self.assertAlmostEqual(model, abs(x) / 2500, 6)
             self.assertAlmostEqual(front, abs(x) / 2500, 3)
-        self.assertIn("pulse: front velocity over the model's 1; ", self.ok("event", path, "--pulse", "--quiet"))
+        self.assertIn("pulse: front velocity over the model's 1; ", self.ok("event", path, "--pulse", "--quiet", "--wide"))
         self.assertNotIn("pulse", self.ok("event", path, "--quiet"))
         uneven, = json.loads(self.ok("event", self.fault(lambda i: 0.2 if i == 6 else 1.0), "--pulse", "--json"))["events"]
         self.assertGreater(uneven["pulse"]["pulse_front_time_s"][8], 1.2 * uneven["pulse"]["pulse_front_time_s"][0])
@@ -367,7 +368,7 @@ class Event(CommandLine):
         self.assertAlmostEqual(first["rupture_velocity_m_s_interval"][0], 1.11)
         self.assertEqual((first["slip_velocity_m_s"], first["slip_velocity_m_s_events"]), (2e-3, 2))
         self.assertIsNone(decades[1]["stress"])
-        table = run("event", path, "--population").stdout
+        table = run("event", path, "--population", "--wide").stdout
         self.assertIn("4 of 6 events have a rupture velocity (1 refused)", table)
         self.assertIn("1e-4 ... 1e-3       3", table)
         self.assertNotIn("fast", table)
@@ -379,11 +380,25 @@ class Event(CommandLine):
         self.assertEqual(json.loads(self.ok("event", nobody, "--json", "--population"))["population"], [])
         self.assertIn("0 of 1 events", self.ok("event", nobody, "--population"))
 
+    def test_one_event_is_a_report(self):
+        path = self.file("e.toml", '[event]\nname = "E"\nrupture_velocity = "3.0 +- 0.2 km/s"\nslip_velocity = "0.5 */ 1.3 m/s"\n')
+        event, = json.loads(self.ok("event", path, "--json"))["events"]
+        closed, = json.loads(self.ok("event", path, "--samples", "0", "--json"))["events"]
+        report = " ".join(self.ok("event", path).split())
+        low, high = event["stress_pa_interval"]
+        self.assertIn(f"stress before the rupture is {event['stress_pa'] / 1e6:.4g} MPa ({low / 1e6:.4g} MPa to {high / 1e6:.4g} MPa).", report)
+        self.assertIn(f"The closed form, which has no friction, gives {closed['stress_pa_bound'] / 1e6:.4g} MPa.", report)
+        self.assertIn(f"gives {closed['contact_ratio_bound']:.4g}.", report)
+        self.assertGreater(event["stress_pa"], 2 * closed["stress_pa_bound"])
+        self.assertIn(f"median of {event['posterior']['samples']} states", report)
+        self.assertNotIn("(1 event)", report)
+        self.assertNotIn("closed form", self.ok("event", path, path))  # two events are a table
+
     def test_the_table_shows_intervals(self):
         path = self.file("e.toml", '[event]\nname = "E"\nrupture_velocity = "3.0 +- 0.2 km/s"\nslip_velocity = "0.5 */ 1.3 m/s"\n'
                                    'stress_drop = "30 +- 10 MPa"\n')
         event = json.loads(self.ok("event", path, "--json"))["events"][0]
-        head, row, low, high = self.ok("event", path).splitlines()[2:6]
+        head, row, low, high = self.ok("event", path, "--wide").splitlines()[2:6]
         for line, label, end in ((low, "5 %", 0), (high, "95 %", 1)):
             self.assertTrue(line.strip().startswith(label))
             for title, key, unit, digits in (("V / c", "rupture_velocity", 1, 4), ("MPa", "stress_pa", 1e6, 4), ("C T", "damping_number", 1, 3)):

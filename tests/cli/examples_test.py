@@ -21,7 +21,7 @@ class Examples(CommandLine):
             os.symlink(PROGRAM, os.path.join(folder, "slipfront"))
             environment = os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"}
             for command in COMMANDS:
-                help_text = run(command, "--help").stdout
+                help_text = run(command, "--help").stdout.replace("\\\n", "")
                 examples = re.findall(r"^  (slipfront .*)$", help_text.partition("Examples:")[2], re.MULTILINE)
                 self.assertTrue(examples, command)
                 for example in examples:

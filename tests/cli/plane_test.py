@@ -274,7 +274,7 @@ end = 0.5
         self.assertIn("slipfront plane --check", out)
 
     def test_check_describes_the_run(self):
-        self.assertIn("120 x 128 cells of dislocation lines", self.ok("plane", FRICTION, "--check"))
+        self.assertIn("120 x 128 cells of dislocation lines", self.ok("plane", FRICTION, "--check", "--wide"))
 
     def test_refuses(self):
         step = os.path.join(SOURCE, "cases/step.toml")

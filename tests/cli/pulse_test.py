@@ -117,14 +117,14 @@ cells = 200
                 if "[plane]" in text:
                     self.refused(2, "pulse", case, says=["plane", "slipfront plane"])
                     lines = ["--direct"] if "--direct" in text else []  # the header of a case names this if it needs it
-                    self.assertIn("OK. This scenario would follow", self.ok("plane", case, *lines, "--check"))
+                    self.assertIn("OK. This scenario would follow", self.ok("plane", case, *lines, "--check", "--wide"))
                     continue  # plane_test.py runs these
                 if "[loading]" in text:  # only chains support loading
                     self.refused(2, "pulse", case, says=["loading.stiffness", "slipfront chain"])
-                    self.assertIn("OK. This scenario would run", self.ok("chain", case, "--check"))
+                    self.assertIn("OK. This scenario would run", self.ok("chain", case, "--check", "--wide"))
                     self.assertEqual(len(self.chain(case, "--set", *TO_FIRST_EVENT[name])["events"]), 1)
                     continue
-                self.assertIn("OK. This scenario would run", self.ok("pulse", case, "--check"))
+                self.assertIn("OK. This scenario would run", self.ok("pulse", case, "--check", "--wide"))
                 self.assertGreater(self.pulse(case, "--set", "pulse.cells=50")["steps"], 0)
 
     def test_a_number_that_the_cells_do_not_resolve_has_a_warning_instead_of_an_error(self):
@@ -155,7 +155,7 @@ cells = 200
             settings = ("--set", "pulse.cells=20", f"friction.law={law[0]}", *(f"friction.{value}" for value in law[1:]))
             out = self.pulse(case, *settings)
             self.assertEqual((out["friction_coefficient"], out["damping_number"]), (None, None), law)
-            self.assertRegex(self.ok("pulse", case, *settings), r"friction_coefficient +null .*\ndamping_number +null ")
+            self.assertRegex(self.ok("pulse", case, *settings, "--wide"), r"friction_coefficient +null .*\ndamping_number +null ")
             self.assertIn(f"{law[0]} friction with " if law[0] != "formula" else "drawn friction with ", self.ok("pulse", case, "--check", *settings))
         for C in (0, 0.5):
             out = self.pulse(case, "--set", "pulse.cells=20", "friction.law=viscous", f"friction.coefficient={C}")
@@ -200,7 +200,7 @@ cells = 200
         case = os.path.join(SOURCE, "cases/step.toml")
         output = os.path.join(os.path.dirname(self.file("unused", "")), "out.nc")
         change = ("--set", "friction.law=viscous", "--set", "friction.coefficient=0.5", "--set", "forcing.formula=0 * x")
-        text = self.ok("pulse", case, "-o", output, *change)
+        text = self.ok("pulse", case, "-o", output, "--wide", *change)
         title = "Frictionless step (with forcing.formula=0 * x, friction.coefficient=0.5, friction.law=viscous)"
         self.assertEqual(text.split("\n")[0], title)
         with netCDF4.Dataset(output) as data:

@@ -84,6 +84,19 @@ class Relations(CommandLine):
         for arguments, says in [(("--stress", "0.1"), "larger"), (("--slip-velocity", "0.1"), "only --stress"),
                                 (("--stress", "1", "--slip-velocity-ratio", "0.5"), "friction")]:
             self.refused(2, "relations", *arguments, "--stress-right", "0.179", says=[says])
+
+    def test_numbers_with_units(self):
+        speed = 5421.3  # c, from 6 km/s and a Poisson's ratio of 0.3
+        row = json.loads(self.ok("relations", "--rupture-velocity", "2.7 km/s", "--json"))["relations"][0]
+        self.assertAlmostEqual(row["rupture_velocity"] * speed / 2700, 1, 4)
+        rock = ("--si", "--contact-ratio", "0.003")
+        for option, text, key, value in (("--stress", "30 MPa", "stress", 30e6), ("--slip-velocity", "50 cm/s", "slip_velocity", 0.5),
+                                         ("--rupture-velocity", "2.7 km/s", "rupture_velocity", 2700)):
+            row = json.loads(self.ok("relations", option, text, *rock, "--json"))["relations"][0]
+            self.assertAlmostEqual(row[key] / value, 1, 12)
+        self.refused(2, "relations", "--stress", "30 MPa", says=["--stress = '30 MPa'", "--si --contact-ratio"])
+        self.refused(2, "relations", "--rupture-velocity", "2.7 km", says=["the unit 'km' is not that of a velocity"])
+        self.refused(2, "relations", "--rupture-velocity", "2.7", says=["= '2.7': too large"])
         self.refused(2, "relations", "--stress", "1", "--stress-right", "x", says=["--stress-right", "'x'"])
 
     def test_friction_coefficient_from_a_ratio_and_back(self):

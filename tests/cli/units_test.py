@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -36,6 +37,27 @@ density = "1180 kg/m3"
 poisson_ratio = 0.33
 contact_ratio = 0.0041
 asperity_spacing = "20 um"
+"""
+
+#: A step into a stressed side, where dislocations overtake each other.
+OVERTAKING = """
+[initial]
+stress_left = 0.9
+stress_right = 0.3
+[friction]
+law = "coulomb"
+coefficient = 0.03
+[domain]
+left = -4
+right = 3.5
+[time]
+end = 3
+[medium]
+shear_modulus = "22 GPa"
+density = "2450 kg/m3"
+poisson_ratio = 0.21
+contact_ratio = 0.0073
+asperity_spacing = "3.3 mm"
 """
 
 
@@ -94,6 +116,43 @@ class Units(CommandLine):
         self.assertEqual(len(lines), 2, lines)
         self.assertRegex(lines[0], r"block.toml:19: domain.left = '-0.1 s': the unit 's' is not that of a length; allowed: a length")
         self.assertIn("time.end = '90 m'", lines[1])
+
+    def chain_with(self, old, new, *arguments):
+        """Runs the chain on the block, in which `old` is replaced."""
+        self.assertIn(old, BLOCK)
+        return subprocess.run([PROGRAM, "chain", self.fresh(BLOCK.replace(old, new)), *arguments], capture_output=True, text=True)
+
+    def fresh(self, text):
+        path = self.file + ".changed.toml"
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def test_an_error_in_the_medium_is_one_line(self):
+        done = self.chain_with("poisson_ratio = 0.33", "poisson_ratio = 0.6")
+        self.assertRegex(done.stderr, r"\Aslipfront: [^\n]*:26: medium.poisson_ratio = '0.6': out of range; allowed: > -1 and < 0.5\n\Z")
+
+    def test_a_domain_in_metres_is_answered_in_metres(self):
+        done = self.chain_with('right = "0.1 m"', 'right = "-0.2 m"')
+        self.assertIn("domain.right = '-0.2 m': not to the right of domain.left; allowed: > -0.1 m\n", done.stderr)
+
+    def test_a_block_without_contacts_needs_no_width_of_a_dislocation(self):
+        self.assertEqual(self.chain_with("[loading]", "[chain]\nspacing = '2 cm'\n[loading]", "--check").returncode, 0)
+        few = self.chain_with("[loading]", "[chain]\nspacing = '5 cm'\n[loading]", "--check")
+        self.assertIn("chain.spacing = '0.05 m': makes a chain of 5 sites, 0.05 m apart", few.stderr)
+
+    def test_messages_of_a_solver_are_in_si(self):
+        path = self.fresh(OVERTAKING)
+        units = {row["name"]: row["si"] for row in json.loads(self.ok("units", path, "--json"))["units"]}
+        pattern = r"overtake each other from t = (\S+?)( s)? at x = (\S+?)( m)? on,"
+        in_si, in_model = (re.search(pattern, "\n".join(self.pulse(path, units)["warnings"])) for units in ("--si", "--dimensionless"))
+        self.assertEqual((in_si[2], in_si[4], in_model[2], in_model[4]), (" s", " m", None, None))
+        for group, name in ((1, "time"), (3, "position")):
+            self.assertAlmostEqual(float(in_si[group]) / (float(in_model[group]) * units[name]), 1, 4)
+
+    def test_a_unit_in_the_wrong_case_has_a_suggestion(self):
+        done = self.chain_with('"5 MPa"', '"5 Mpa"')
+        self.assertIn("unknown unit 'Mpa' (did you mean 'MPa'?); allowed: ", done.stderr)
 
 
 if __name__ == "__main__":

@@ -105,7 +105,7 @@ class Manual(unittest.TestCase):
     def test_every_example_is_on_the_page(self):
         pages = self.pages()
         for name, text in helps().items():
-            for example in re.findall(r"^  (slipfront .*)", text.partition("Examples:")[2], re.MULTILINE):
+            for example in re.findall(r"^  (slipfront .*)", re.sub(r"\\\n +", "", text).partition("Examples:")[2], re.MULTILINE):
                 self.assertIn(example, plain(pages[name]))
 
     def test_pages_name_values_limits_and_exit_codes(self):

@@ -92,6 +92,8 @@ class Loaded(PythonCommands):
         dense = slipfront.chain(text, set={**tables, "time.end": near[-1]})
         event = int(np.argmin(np.abs(dense["event_onset"].values - onset)))
         axes = plots.slip_event(dense, event + 1).axes
+        left, right = axes[0].get_xlim()
+        self.assertLessEqual(right - left, 3.001 * duration)
         front = line(axes[0], "front")
         np.testing.assert_array_equal(front.get_ydata(), dense["x"])
         arrivals = front.get_xdata()

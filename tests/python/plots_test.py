@@ -2,6 +2,7 @@
 
 import json
 import os
+import tempfile
 import unittest
 
 import numpy as np
@@ -13,7 +14,8 @@ import slipfront
 from slipfront import plots
 from slipfront.plots import choose, files
 from slipfront.plots.between import between
-from slipfront.plots.style import label
+from slipfront.plots.pulse_parts import title_of
+from slipfront.plots.style import label, plain_numbers, prefix_axes
 from support import SOURCE
 
 CASE = os.path.join(SOURCE, "cases/fig-08.toml")
@@ -110,6 +112,66 @@ class Figures(PythonCommands):
         self.assertIn("slip velocity W, mm s⁻¹", self.labels(figure))
         self.assertRegex(figure.get_suptitle() if hasattr(figure, "get_suptitle") else figure._suptitle.get_text(), r"t = \S+ μs$")
 
+    def test_titles_are_one_line_with_the_settings_that_fit(self):
+        settings = ", ".join(f"initial.width={i}" for i in range(9))
+        self.assertEqual(title_of(xr.Dataset(attrs={"title": "A run"})), "A run")
+        title = title_of(xr.Dataset(attrs={"title": f"A run\n(with {settings})"}))
+        self.assertEqual(title, "A run (with initial.width=0, initial.width=1, initial.width=2, …)")
+        self.assertEqual(len(title_of(xr.Dataset(attrs={"title": "x" * 200}))), 76)
+
+    def test_rounding_is_not_drawn(self):
+        pulse = slipfront.pulse(STEP).copy(deep=True)
+        pulse["Sigma"][:] = 0.5 * (1 + 1e-14 * np.arange(pulse.sizes["x"]))
+        low, high = plots.profiles(pulse).axes[1].get_ylim()
+        self.assertGreater(high - low, 0.05)
+        self.assertEqual(plots.space_time(pulse).axes[1].collections[0].get_clim()[0], 0)
+        pulse["Sigma"][:] = 1e-9
+        pulse["Sigma"].attrs["units"] = "Pa"
+        self.assertIn("zero", [text.get_text() for text in plots.profiles(pulse).axes[1].texts])
+
+    def test_a_logarithmic_axis_has_a_prefix(self):
+        figure = Figure()
+        axes = figure.subplots()
+        axes.set(xscale="log", yscale="log", xlim=(2e6, 8e7), ylim=(1, 2), xlabel="stress, Pa", ylabel="slip, m")
+        plain_numbers(axes.xaxis)
+        prefix_axes(figure)
+        self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("stress, MPa", "slip, m"))
+        shown = [text.get_text() for text in axes.get_xticklabels() if text.get_text()]
+        self.assertIn("10", shown)
+        self.assertFalse([text for text in shown if "e+" in text])
+
+    def test_the_observed_front_of_a_chain_does_not_turn_back(self):
+        chain = slipfront.chain(os.path.join(SOURCE, "cases/step-viscous.toml"), set={"chain.scale": 60, "output.every": 0.2})
+        jumping = np.diff(chain["trailing_front_observed"].dropna("time"))
+        self.assertTrue((jumping > 0).any() and (jumping < 0).any())
+        lines = [line for line in plots.space_time(chain).axes[0].lines if line.get_linestyle() == ":"]
+        for line, sign in zip(lines, (-1, 1)):
+            steps = np.diff(line.get_xdata()[np.isfinite(line.get_xdata())])
+            self.assertTrue((sign * steps >= 0).all())
+
+    def test_a_rupture_on_a_plane_has_its_spectrum(self):
+        x = np.linspace(-1, 1, 8)
+        maps = {name: (("time", "y", "x"), np.ones((2, 8, 8))) for name in ("slip", "slip_velocity")}
+        series = {"moment_rate": ("series_time", [0.0, 1.0]), "moment_rate_spectrum": ("frequency", [4.0, 2.0, 1.0])}
+        axes = {"time": [0, 1], "x": x, "y": x, "series_time": [0, 1], "frequency": [0.0, 1.0, 2.0]}
+        rupture = xr.Dataset({**maps, **series, "rupture_time": (("y", "x"), np.hypot(*np.meshgrid(x, x)))}, axes)
+        spectrum = plots.plane(rupture).axes[-1]
+        self.assertEqual((spectrum.get_xscale(), spectrum.get_yscale()), ("log", "log"))
+        np.testing.assert_array_equal(spectrum.lines[0].get_xydata(), [[1, 2], [2, 1]])
+        self.assertEqual(len(plots.plane(rupture.drop_dims("frequency")).axes), 7)
+
+    def test_fault(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "grid.nc")
+            self.ok("event", os.path.join(SOURCE, "cases/synthetic-fault.fsp"), "--fault-grid", "-o", path, "--quiet")
+            with xr.open_dataset(path) as grid:
+                self.assertEqual(choose.kinds_of(grid), ["fault"])
+                axes = plots.fault(grid).axes
+                for panel, name in zip(axes, ("slip", "rupture_time", "rise_time", "stress_drop")):
+                    np.testing.assert_array_equal(panel.collections[0].get_array().ravel(), grid[name].isel(segment=0).values.ravel())
+                self.assertEqual(axes[2].get_xlabel(), "position along strike, km")
+                self.assertIn("static stress drop, MPa", [panel.get_xlabel() for panel in axes])
+
     def test_sweep(self):
         tables = {"set": {"friction.law": "viscous", "pulse.cells": 40}, "variables": ["slip_velocity_at_origin", "slip_at_origin"]}
         data = slipfront.sweep(STEP, {"friction.coefficient": [2, 0.1, 1], "initial.stress_left": [0.8, 0.9]}, **tables)
@@ -118,7 +180,7 @@ class Figures(PythonCommands):
         np.testing.assert_array_equal(figure.axes[0].collections[0].get_array().ravel(), data.slip_velocity_at_origin.sortby("friction_coefficient").values.ravel())
         line = plots.sweep(data.isel(initial_stress_left=0), "slip_at_origin").axes[0]
         np.testing.assert_array_equal(line.lines[0].get_xdata(), [0.1, 1, 2])
-        self.assertEqual(line.get_ylabel(), "slip at x = 0 since time 0, b/(2π)")
+        self.assertEqual(line.get_ylabel(), "slip u at x = 0, b/(2π)")
         closures = slipfront.sweep(STEP, {"friction.coefficient": [0.1, 1], "friction.closure": ["paper", "consistent"]}, **tables)
         self.assertEqual([text.get_text() for text in plots.sweep(closures).axes[0].get_legend().get_texts()], ["paper", "consistent"])
         self.assertEqual(choose.kinds_of(data), ["sweep"])

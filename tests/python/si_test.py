@@ -121,7 +121,7 @@ class Results(PythonCommands):
         self.assertNotIn("friction_coefficient", si["units"])
         self.assertLessEqual(set(si["units"]), set(SCALE_OF))
         self.assertNotIn("units", plain)
-        self.assertRegex(self.ok("pulse", STEP, *SHORT, *ROCK, "--si"), r"slip_at_origin .* slip at x = 0 since time 0, between the faces, in m\n")
+        self.assertRegex(self.ok("pulse", STEP, *SHORT, *ROCK, "--si", "--wide"), r"slip_at_origin .* slip at x = 0 since time 0, between the faces, in m\n")
 
     def test_the_medium_alone_changes_nothing(self):
         runs = [self.pulse(STEP, *SHORT, *medium) for medium in ([], ROCK)]
@@ -141,9 +141,9 @@ class Results(PythonCommands):
         self.assertEqual(si["units"]["events"]["stress_drop"], "Pa")
         event = si["events"][0]  # the springs of 0.02 MPa/um shorten by the slip, less the advance of their far ends
         self.assertAlmostEqual(event["stress_drop"] / 0.02e12, event["slip"] - 1e-6 * event["duration"], delta=1e-5 * event["slip"])
-        text = self.ok("chain", self.block)
+        text = self.ok("chain", self.block, "--wide")
         self.assertRegex(text, r"\n *s +s +m +m +Pa +Pa +m s-1 +m +m +m s-1 +1 +1\n")
-        check = self.ok("pulse", STEP, "--check", "--set", *ROCK, "domain.left='-50 m'", "domain.right='2e4 mm'", "initial.stress_left='80 MPa'")
+        check = self.ok("pulse", STEP, "--check", "--wide", "--set", *ROCK, "domain.left='-50 m'", "domain.right='2e4 mm'", "initial.stress_left='80 MPa'")
         self.assertIn("x = -50 m ... 20 m to t = ", check)
 
     def test_the_stress_drop_at_a_pulled_end_is_a_stress(self):

@@ -113,7 +113,7 @@ def sections_of(text: str) -> dict[str, str]:
 
 
 def command_of(name: str, summary: str, text: str) -> Command:
-    sections = sections_of(text)
+    sections = sections_of(re.sub(r"\\\n +", "", text))  # a long example is continued on the next line
     usage = re.search(rf"^(?:[Uu]sage: *)?({f'slipfront {name}'.strip()} .*)", sections[""], re.MULTILINE)
     if not usage:
         raise ValueError(f"slipfront {name} --help prints no usage")

@@ -7,6 +7,7 @@ from .loaded_parts import is_loaded
 #: For each kind of picture: the function of this package, and the dimensions and variables that a Dataset must have.
 KINDS = {
     "plane": ("plane", {"time", "x", "y", "series_time", "rupture_time", "moment_rate"}),
+    "fault": ("fault", {"along_strike", "down_dip", "slip", "rupture_time"}),
     "loading": ("loading", {"time", "x", "x_bounds", "slip"}),
     "event": ("slip_event", {"time", "x", "x_bounds", "slip", "event_onset"}),
     "catalogue": ("catalogue", {"event_onset"}),

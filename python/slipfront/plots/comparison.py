@@ -57,5 +57,5 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Picture:
     panels[0, 1].legend()
     if "pulse-consistent" in names:
         mark_fronts(panels[0, 0], levels.isel(level=names.index("pulse-consistent")))
-    figure.suptitle(f"{title_of(levels)}, t = {quantity(levels['time'], float(levels['time'][-1]))}")
+    figure.suptitle(f"{title_of(levels, 60)}, t = {quantity(levels['time'], float(levels['time'][-1]))}")
     return figure

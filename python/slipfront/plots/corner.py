@@ -124,7 +124,7 @@ def corner(samples, names=None, bins: int = 30) -> Picture:
     True
     """
     name = next((name for name in ("name", "event_name") if "draw" in samples.dims and name in samples.variables), None)
-    title = f"{plain(samples[name].values.ravel()[0])}, {'posterior' if name == 'name' else 'draws'}\n" if name else ""
+    title = f"{plain(samples[name].values.ravel()[0])}, {'posterior' if name == 'name' else 'draws'}: " if name else ""
     samples = drawn(samples) if "draw" in samples.dims else samples
     names = list(names or (name for name in samples.data_vars if samples[name].dtype.kind in "fiu"))
     variables = [in_megapascal(samples[name]) for name in names]
@@ -138,7 +138,7 @@ def corner(samples, names=None, bins: int = 30) -> Picture:
     labels = [label(variable) for variable in variables]
     figure = Picture(figsize=(1.4 + 2.0 * len(names), 1.2 + 1.9 * len(names)))
     fill(figure.subplots(len(names), len(names), squeeze=False), table, labels, bins)
-    figure.suptitle(title + "median [5 %, 95 %]; lines enclose 50 and 90 %", fontsize="small" if len(names) < 3 else "medium")
+    figure.suptitle(title + "median [5 %, 95 %], lines at 50 and 90 %", fontsize="small" if len(names) < 3 else "medium")
     return figure
 
 

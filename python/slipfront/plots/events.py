@@ -123,9 +123,9 @@ def events(events, line) -> Picture:
         decades(axes, events, name, scale)
         axes.set(xscale="log", xlabel="rupture velocity V, c")
     panels["stress"].plot(line["rupture_velocity"], line["stress"], color="0.35", linestyle="-", label="closed form", zorder=3)
-    panels["stress"].set(ylabel="initial stress Σ−, μA/π", title="Initial stress: on the closed form or above it\nby construction (arrows: lower bound)")
-    for name, label, title in (("stress_pa", "initial stress, MPa", "The same in MPa, with the contact ratio A\nfrom the slip velocity or as given"),
-                               ("stress_pa_bound", "least initial stress, MPa", "Lower bound (arrows): A from the slip velocity\nas if friction took nothing")):
+    panels["stress"].set(ylabel="initial stress Σ−, μA/π", title="On or above the line by construction")
+    for name, label, title in (("stress_pa", "initial stress, MPa", "In MPa: A is from the slip velocity or given"),
+                               ("stress_pa_bound", "least initial stress, MPa", "Lower bounds (arrows): A without friction")):
         if name in panels:
             values = events[name].values
             panels[name].set(yscale="log", ylabel=label, title=title)
@@ -134,7 +134,7 @@ def events(events, line) -> Picture:
     if "observed_slip_velocity" in panels:
         axes = panels["observed_slip_velocity"]
         axes.plot(line["rupture_velocity"], line["slip_velocity"], color="0.35", linestyle="-", label="closed form, no friction", zorder=3)
-        axes.set(yscale="log", ylabel="slip velocity W, cA/π", title="Slip velocity observed,\nand the closed form without friction")
+        axes.set(yscale="log", ylabel="slip velocity W, cA/π", title="Slip velocity, and closed form")
     for name, axes in panels.items():
         if name == "stress":
             axes.legend(markerscale=4 if events["stress"].size > MANY else 1)

@@ -133,5 +133,5 @@ def fronts(data, event: int | None = None) -> Picture:
     if loaded:
         lengths(panels[2], data, rows)
     text = title_of(data)
-    figure.suptitle(f"{text}\nevent {event}".lstrip() if event is not None else text)
+    figure.suptitle(f"{text}: event {event}".lstrip(": ") if event is not None else text)
     return figure

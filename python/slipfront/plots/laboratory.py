@@ -47,7 +47,7 @@ def hardness(axes, data) -> None:
     order = chosen[numpy.argsort(data["stress_ratio"].values[chosen])]
     axes.errorbar(data["hardness_over_modulus_of_front"].values[order], 1.1 + 0.9 * numpy.arange(order.size) / max(1, order.size - 1),
                   xerr=bars(data, "hardness_over_modulus_of_front", order), fmt="o", color="k", markersize=3, elinewidth=0.8, linestyle="none")
-    axes.set(title="posterior with its median (below)\nand single fronts with 90 % (above)", xlabel="hardness over modulus σ$_p$ / μ", yticks=[], ylim=(0, 2.1))
+    axes.set(title="posterior, and single fronts (90 %)", xlabel="hardness over modulus σ$_p$ / μ", yticks=[], ylim=(0, 2.1))
 
 
 @styled

@@ -112,7 +112,7 @@ def rate_scale(rates) -> dict:
     return {"norm": LogNorm(10.0 ** min(bottom, top - 2), 10.0**top, clip=True)}
 
 
-def draw_rates(figure, axes, across, up, rates, text) -> None:
+def draw_rates(figure, axes, across, up, rates, text, **bar_options) -> None:
     """Draws a map of slip velocities (interval, x) between the edges `across` in time and `up` in x, with its colour bar. Cells that are not finite
     are grey."""
     scale = rate_scale(rates)
@@ -120,7 +120,7 @@ def draw_rates(figure, axes, across, up, rates, text) -> None:
     axes.set_facecolor("0.75")
     axes.grid(False)
     slower = "norm" in scale and bool((rates < scale["norm"].vmin).any())
-    bar = figure.colorbar(image, ax=axes, label=text, extend="min" if slower else "neither", pad=0.02)
+    bar = figure.colorbar(image, ax=axes, label=text, extend="min" if slower else "neither", pad=0.02, **bar_options)
     if "norm" not in scale:
         bar.set_ticks([0])
         say(axes, "at rest")

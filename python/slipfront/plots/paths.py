@@ -66,5 +66,5 @@ def paths(chain) -> Picture:
         figure.legend(loc="lower center", ncol=2)
         figure.get_layout_engine().set(rect=(0, 0.07, 1, 0.93))
     drawn = "" if every == 1 else f"one of {every} dislocations"
-    figure.suptitle("\n".join(filter(None, (title_of(chain), drawn))))
+    figure.suptitle("; ".join(filter(None, (title_of(chain, 60 if drawn else 66), drawn))))
     return figure

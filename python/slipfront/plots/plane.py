@@ -7,6 +7,9 @@ from .pulse_parts import title_of
 from .space_time import colours
 from .style import Picture, label, styled
 
+#: Variables of the amplitude spectrum of the moment rate.
+SPECTRUM = ("frequency", "moment_rate_spectrum")
+
 #: Largest number of lines of equal rupture time.
 CONTOURS = 8
 
@@ -18,9 +21,17 @@ def _map(figure, axes, data, values, **options) -> None:
     axes.grid(False)
 
 
+def draw_spectrum(axes, rupture) -> None:
+    """Draws the amplitude spectrum of the moment rate, without the frequency 0."""
+    frequency, amplitude = (rupture[name] for name in SPECTRUM)
+    shown = (frequency.values > 0) & (amplitude.values > 0)
+    axes.plot(frequency.values[shown], amplitude.values[shown])
+    axes.set(xscale="log", yscale="log", xlabel=label(frequency, "frequency"), ylabel=label(amplitude, "moment spectrum"))
+
+
 @styled
 def plane(rupture, time: int = -1) -> Picture:
-    """Draws slip velocity and slip at one time, the time at which each point ruptured, and the moment rate.
+    """Draws slip velocity and slip at one time, the time at which each point ruptured, the moment rate and, if it is known, its spectrum.
 
     Parameters
     ----------
@@ -45,8 +56,9 @@ def plane(rupture, time: int = -1) -> Picture:
     >>> len(slipfront.plots.plane(rupture).axes)
     7
     """
-    figure = Picture(figsize=(9, 3.4))
-    panels = figure.subplots(1, 4, width_ratios=(1, 1, 1, 1.1))
+    figure = Picture(figsize=(8, 5.8))
+    grid = figure.add_gridspec(2, 6, height_ratios=(1.3, 1))
+    panels = [figure.add_subplot(grid[0, 2 * i:2 * i + 2]) for i in range(3)]
     for axes, name, symbol in zip(panels, ("slip_velocity", "slip"), ("W", "slip")):
         values = rupture[name].isel(time=time).rename(symbol)
         _map(figure, axes, rupture, values, **colours(values.values))
@@ -55,8 +67,12 @@ def plane(rupture, time: int = -1) -> Picture:
     if numpy.isfinite(arrived).any() and numpy.nanmax(arrived) > numpy.nanmin(arrived):
         panels[2].contour(rupture["x"], rupture["y"], arrived, levels=CONTOURS, colors="white", linewidths=0.6)
     panels[0].set_ylabel(label(rupture["y"]))
-    panels[3].plot(rupture["series_time"], rupture["moment_rate"])
-    panels[3].axvline(float(rupture["time"][time]), color="0.5", linewidth=0.8, linestyle=":")
-    panels[3].set(xlabel=label(rupture["series_time"]), ylabel=label(rupture["moment_rate"]))
+    has_spectrum = set(SPECTRUM) <= set(rupture.variables)
+    rate = figure.add_subplot(grid[1, :3] if has_spectrum else grid[1, :])
+    rate.plot(rupture["series_time"], rupture["moment_rate"])
+    rate.axvline(float(rupture["time"][time]), color="0.5", linewidth=0.8, linestyle=":")
+    rate.set(xlabel=label(rupture["series_time"]), ylabel=label(rupture["moment_rate"]))
+    if has_spectrum:
+        draw_spectrum(figure.add_subplot(grid[1, 3:]), rupture)
     figure.suptitle(title_of(rupture))
     return figure

@@ -2,14 +2,16 @@
 
 import numpy
 
-from .pulse_parts import backward, extent, finite, mark_fronts, say_rest, shades, title_of, window
-from .style import REST, Picture, is_si, label, prefixed, styled, unit
+from .pulse_parts import backward, extent, finite, is_constant, mark_fronts, say_rest, shades, title_of, window
+from .style import REST, Picture, is_si, label, prefixed, rest_of, styled, unit
 
 
-def room(lowest, highest, below) -> tuple:
+def room(lowest, highest, below, rest=REST) -> tuple:
     """Returns the limits of an axis for a range of values. The space below is a share `below` of the range, the space above 6 %."""
-    if max(abs(lowest), abs(highest)) < REST:
+    if max(abs(lowest), abs(highest)) < rest:
         return -1, 1
+    if is_constant(lowest, highest):
+        return tuple(sorted((0.9 * lowest, 1.1 * highest)))
     height = highest - lowest or abs(highest) or 1
     return lowest - below * height, highest + 0.06 * height
 
@@ -50,7 +52,7 @@ def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Picture:
             axes.plot(now["x"], now[name], color=colour, linestyle="-", label=f"{float(now['time']) / second:.3g}")
         remark = backward(pulse, name)
         say_rest(axes, pulse[name][rows])
-        axes.set(ylabel=label(pulse[name]), xlim=window(pulse), ylim=room(*extent(pulse[name].values[rows]), 0.2 if remark else 0.06))
+        axes.set(ylabel=label(pulse[name]), xlim=window(pulse), ylim=room(*extent(pulse[name].values[rows]), 0.2 if remark else 0.06, rest_of(pulse[name])))
         axes.text(0.01, 0.03, remark, transform=axes.transAxes, color="0.3", fontsize="small")
     mark_fronts(panels[0], pulse)
     panels[0].set_title(title_of(pulse))

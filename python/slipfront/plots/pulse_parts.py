@@ -1,13 +1,11 @@
 """Common parts of the pictures of a pulse: its title, the range of x to show, the lines of its fronts."""
 
-import textwrap
-
 import numpy
 import matplotlib
 from matplotlib.patheffects import withStroke
 
 from .loaded_parts import is_loaded
-from .style import REST, plain
+from .style import plain, rest_of
 
 #: The fronts of a file, each with its line style, name and symbol.
 FRONTS = {
@@ -24,9 +22,20 @@ MOTIONS = ("W", "U", "slip")
 OUTLIER = 4
 
 
-def title_of(dataset) -> str:
-    """Returns the title of the scenario of a Dataset in lines of at most 80 characters, without characters that a picture cannot show."""
-    return textwrap.fill(plain(dataset.attrs.get("title", "")), 80)
+def title_of(dataset, most: int = 76) -> str:
+    """Returns the title of the scenario of a Dataset as one line of at most `most` characters, without those that a picture cannot show. Of the
+    settings at its end, "(with ...)", it has those that fit."""
+    text = plain(" ".join(str(dataset.attrs.get("title", "")).split()))
+    if len(text) <= most:
+        return text
+    head, with_settings, rest = text.partition(" (with ")
+    settings = rest.split(", ")
+    while settings and with_settings:
+        settings.pop()
+        shorter = f"{head} (with {', '.join([*settings, '…'])})"
+        if len(shorter) <= most:
+            return shorter
+    return text[:most - 1].rstrip() + "…"
 
 
 def finite(dataset):
@@ -37,6 +46,11 @@ def finite(dataset):
 def fronts_of(dataset) -> list:
     """Returns (variable, line style, name, symbol) of each front that exists at some time."""
     return [(dataset[front], *look) for front, look in FRONTS.items() if front in dataset and bool(dataset[front].notnull().any())]
+
+
+def is_constant(lowest, highest) -> bool:
+    """Whether values in this range differ only by rounding."""
+    return highest - lowest <= 1e-9 * max(abs(lowest), abs(highest))
 
 
 def extent(values) -> tuple[float, float]:
@@ -52,7 +66,7 @@ def extent(values) -> tuple[float, float]:
 def say_rest(axes, field) -> None:
     """Writes a remark in a panel of a field that is zero within rounding: it is at rest, or without stress."""
     lowest, highest = extent(field.values)
-    if max(-lowest, highest) < REST:
+    if max(-lowest, highest) < rest_of(field):
         text = "at rest" if field.name in MOTIONS else "zero"
         axes.text(0.5, 0.6, text, transform=axes.transAxes, ha="center", va="center", color="0.3")
 
@@ -61,7 +75,8 @@ def backward(dataset, name) -> str:
     """Returns the remark of a picture on backward slip: a slip or slip velocity below -2 % of its maximum, which is more than the ripples of
     a chain. Otherwise returns an empty text."""
     lowest, highest = extent(dataset[name].values)
-    return "below 0: slips backward, where stress rises with x" if name in ("slip", "W") and lowest < -0.02 * highest else ""
+    is_backward = name in ("slip", "W") and lowest < min(-0.02 * highest, -rest_of(dataset[name]))
+    return "below 0: slips backward, where stress rises with x" if is_backward else ""
 
 
 def window(dataset) -> tuple:

@@ -45,19 +45,23 @@ def slip_event(run, event: int | None = None) -> Picture:
     rows = outputs_around(run["time"].values, onset, end)
     near = run.isel(time=rows)
     since, during = near["time"].values - onset, int(((run["time"] >= onset) & (run["time"] <= end)).sum())
-    figure = Picture(figsize=(7.0, 3.6))
+    figure = Picture(figsize=(7.0, 4.2))
     left, right = figure.subplots(1, 2, sharey=True, width_ratios=(2.4, 1))
     rates = slip_rates(near)
-    draw_rates(figure, left, since, edges_of(run), rates, rate_label(run))
+    draw_rates(figure, left, since, edges_of(run), rates, rate_label(run), location="top", aspect=30)
     if during >= FEWEST and numpy.isfinite(run["event_origin"][chosen]):
         draw_front(left, near, since, rates, float(run["event_origin"][chosen]))
     draw_fit(left, run, chosen, float(since[-1]))
-    left.set(xlim=(since[0], since[-1]), ylim=edges_of(run)[[0, -1]], ylabel=label(run["x"]))
-    scaled(left.xaxis, run["time"], label(run["time"], "time since onset"), since)
+    shown = (since[0], since[-1])
+    if during >= FEWEST:  # the outputs next to the event may be far away
+        shown = max(since[0], onset - end), min(since[-1], 2 * (end - onset))
+    left.set(xlim=shown, ylim=edges_of(run)[[0, -1]], ylabel=label(run["x"]))
+    scaled(left.xaxis, run["time"], label(run["time"], "time since onset"), numpy.array(shown))
     draw_slip(right, run, onset, end)
     outputs = f"{during} output{'' if during == 1 else 's'} during it" if during else "no output during it"
-    figure.suptitle(f"{title_of(run)}\nevent {chosen + 1} of {run.sizes['event']}, {outputs}".lstrip())
-    left.legend(loc="upper left", bbox_to_anchor=(0.0, -0.2), ncol=1, borderaxespad=0)
+    figure.suptitle(": ".join(filter(None, (title_of(run, 40), f"event {chosen + 1} of {run.sizes['event']}, {outputs}"))))
+    figure.legend(*left.get_legend_handles_labels(), loc="lower center", ncol=2)
+    figure.get_layout_engine().set(rect=(0, 0.12, 1, 0.88))
     return figure
 
 
@@ -79,6 +83,7 @@ def draw_front(axes, near, since, rates, origin) -> None:
     threshold = float(numpy.interp(0.0, middles, logarithms[:, cell]))
     during = middles >= min(0.0, middles[-1])
     arrivals = numpy.array([crossing(middles, column, threshold, during) for column in logarithms.T])
+    arrivals = numpy.maximum(arrivals, min(0.0, middles[-1]))  # the interval before the onset may be long
     axes.plot(arrivals, near["x"].values, color="C6", linestyle="-", label="front: |W| first above that of the origin at onset")
 
 

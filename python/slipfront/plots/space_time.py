@@ -5,30 +5,42 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
 from .between import between
-from .pulse_parts import backward, extent, finite, fronts_of, say_rest, title_of, window
-from .style import REST, Picture, label, styled
+from .pulse_parts import backward, extent, finite, fronts_of, is_constant, say_rest, title_of, window
+from .style import REST, Picture, label, rest_of, styled
 
 #: Number of points of a map, along x and along time.
 POINTS = (600, 400)
 
 
-def colours(values) -> dict:
+def colours(values, rest=REST) -> dict:
     """Returns the colours of a map. A field of both signs has white at zero. Other fields have the colours of the style sheet, from zero
-    or from their smallest value."""
+    or from their smallest value, but never those of rounding."""
     lowest, highest = extent(values)
     largest = max(-lowest, highest)
-    if largest < REST:
+    if largest < rest:
         return {"vmin": 0, "vmax": 1}
+    if is_constant(lowest, highest):
+        return {"vmin": min(lowest, 0), "vmax": max(highest, 0)}
     if lowest < -0.05 * largest:
         return {"cmap": "PuOr_r", "vmin": -largest, "vmax": largest}
     return {"vmin": lowest if lowest > highest / 2 else min(lowest, 0), "vmax": highest} if largest > 0 else {}
+
+
+def path_of(front, pulse):
+    """Returns the positions of a front as a line. Phonons of a chain make an observed front jump back and forth. There the line is how far
+    the front has come so far, which is where an observer at rest sees it first."""
+    if not str(front.name).endswith("_observed") or not str(pulse.attrs.get("history", "")).startswith("slipfront chain"):
+        return front
+    if front.name == "trailing_front_observed":
+        return numpy.fmin.accumulate(front.values)
+    return numpy.fmax.accumulate(front.values)
 
 
 def name_fronts(axes, pulse) -> None:
     """Draws the fronts of a pulse as lines, with their symbols next to them. The symbol is at a late time of the front, where
     the line is usually inside the window."""
     for front, line, text, symbol in fronts_of(pulse):
-        axes.plot(front, pulse["time"], color="C6", linestyle=line, label=text, linewidth=1.3)
+        axes.plot(path_of(front, pulse), pulse["time"], color="C6", linestyle=line, label=text, linewidth=1.3)
         inside = numpy.flatnonzero(front.notnull().values & (pulse["time"].values > 0))
         if symbol and inside.size:
             row = inside[int(0.6 * (inside.size - 1))]
@@ -77,7 +89,7 @@ def space_time(pulse, fields=("W", "Sigma")) -> Picture:
     # These are the edges of the map's points. The values are computed at their centres.
     across, up = numpy.linspace(left, right, POINTS[0] + 1), numpy.linspace(outputs[0], outputs[-1], POINTS[1] + 1)
     for axes, name in zip(panels, fields):
-        scale = colours(pulse[name].values)
+        scale = colours(pulse[name].values, rest_of(pulse[name]))
         values = between(pulse, name, (up[1:] + up[:-1]) / 2, (across[1:] + across[:-1]) / 2)
         image = axes.pcolormesh(across, up, numpy.ma.masked_invalid(values), rasterized=True, **scale)
         axes.set_facecolor("0.75")

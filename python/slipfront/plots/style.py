@@ -38,6 +38,9 @@ NAMES = {
     "velocity_ratio": "|V−| / V+",
     "slip_velocity": "slip velocity W at x = 0",
     "stress_pa": "initial stress",
+    "slip_at_origin": "slip u at x = 0",
+    "slip_velocity_at_origin": "slip velocity W at x = 0",
+    "stress_at_origin": "stress Σ at x = 0",
 }
 
 #: Units of quantities whose variable has none, as in CSV files.
@@ -53,6 +56,9 @@ for _name, _unit, _label in event_quantities():
 
 #: A field whose values are all smaller than this, in any units, is at rest. Interfaces under rate-and-state friction creep at 1e-17 and less.
 REST = 1e-12
+
+#: The same for a stress in Pa.
+REST_IN_PA = 1e-5
 
 #: Digits of powers of ten.
 POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -90,14 +96,18 @@ class TicksIn(AutoLocator):
 
 
 def prefix_axes(figure) -> None:
-    """Shows linear axes whose label ends with an SI unit in a unit of suitable size, as in "position x, mm"."""
+    """Shows axes whose label ends with an SI unit in a unit of suitable size, as in "position x, mm". Axes with powers of ten remain."""
     for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
         text = axis.get_label_text()
         name = re.split(r",\s", text)[-1]
         factor, shown = prefixed(name, float(numpy.abs(axis.get_view_interval()).max()))
-        if axis.get_scale() != "linear" or factor == 1:
+        is_log = axis.get_scale() == "log" and isinstance(axis.get_major_formatter(), FuncFormatter)
+        if factor == 1 or not (is_log or axis.get_scale() == "linear"):
             continue
         axis.set_label_text(text.removesuffix(name) + shown)
+        if is_log:
+            plain_numbers(axis, factor)
+            continue
         axis.set_major_formatter(FuncFormatter(lambda value, _, factor=factor: f"{value / factor:.4g}"))
         if math.log10(factor) % 1:
             axis.set_major_locator(TicksIn(factor))
@@ -181,9 +191,14 @@ def unit(variable) -> str:
     if not unit_of_model and si not in ("", "1"):  # m s-1 without its space would be a rate
         return plain(si).translate({ord("-"): "⁻", **{ord(digit): power for digit, power in zip("123456789", "¹²³⁴⁵⁶⁷⁸⁹")}})
     text = plain(unit_of_model or UNITS.get(variable.name, ""))
-    for written, printed in ((" ", ""), ("mu", "μ"), ("nu", "ν"), ("pi", "π"), ("^2", "²")):
+    for written, printed in ((" ", ""), ("mu", "μ"), ("nu", "ν"), ("pi", "π"), ("^2", "²"), ("^3", "³")):
         text = text.replace(written, printed)
     return "" if text == "1" else text
+
+
+def rest_of(variable) -> float:
+    """Returns the value below which a field is at rest, or zero within rounding."""
+    return REST_IN_PA if variable.attrs.get("units") == "Pa" else REST
 
 
 def quantity(variable, value, digits: int = 4) -> str:
@@ -198,11 +213,21 @@ def label(variable, name: str = "") -> str:
     return f"{name}, {unit(variable)}" if unit(variable) else name
 
 
-def plain_numbers(axis) -> None:
-    """Labels a logarithmic axis with numbers such as 0.1 and 100 instead of powers of ten. Numbers between the decades have labels only
-    if the axis shows few decades."""
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_formatter(LogFormatter(labelOnlyBase=False, minor_thresholds=(1.2, 0.5)))
+class LogNumbers(LogFormatter):
+    """Numbers between the decades of a logarithmic axis, if it shows few decades, in a unit that is `factor` times that of the axis."""
+
+    def __init__(self, factor):
+        super().__init__(labelOnlyBase=False, minor_thresholds=(1.2, 0.5))
+        self.factor = factor
+
+    def __call__(self, x, pos=None):
+        return f"{x / self.factor:g}" if super().__call__(x, pos) else ""
+
+
+def plain_numbers(axis, factor: float = 1.0) -> None:
+    """Labels a logarithmic axis with numbers such as 0.1 and 100 instead of powers of ten, in a unit that is `factor` times that of the axis."""
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / factor:g}"))
+    axis.set_minor_formatter(LogNumbers(factor))
 
 
 def scaled(axis, variable, text, values) -> None:

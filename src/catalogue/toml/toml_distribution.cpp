@@ -68,7 +68,7 @@ double number_of(const toml::table& table, const char* name, const std::string& 
 std::string quantity_text(const toml::node& node) {
   if (const auto text = node.value<std::string>()) return *text;
   if (!node.is_number()) return {};
-  return digits(node.value_or(0.0), 17);
+  return shortest(node.value_or(0.0));
 }
 
 Measured read_distribution(const toml::table& table, const std::string& full_key, const Key& key) {

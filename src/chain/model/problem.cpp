@@ -97,7 +97,7 @@ void check(const Problem& p, double share_of_machine) {
   if (!(p.crossing_stress >= 0) || !std::isfinite(p.crossing_stress))
     refuse("crossing_stress", p.crossing_stress, "out of range", ">= 0, finite");
   const double a = largest_contact(p), sites_per_width = 1 / (a * h);
-  if (p.model == Model::sine_gordon && sites_per_width < least_sites_per_width)
+  if (p.substrate && p.model == Model::sine_gordon && sites_per_width < least_sites_per_width)
     refuse("spacing", h,
            "too coarse: " + digits(sites_per_width) + " sites to the width of a dislocation, " +
                digits(least_sites_per_width) + " are needed",

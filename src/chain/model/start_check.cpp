@@ -76,7 +76,7 @@ void StartCheck::finish(const Problem& p, const Ranks& ranks) const {
     at = all[r + 1];
   }
   // A dislocation in a train has the greatest slope 2 beta, beta its inverse width.
-  if (p.model != Model::sine_gordon || !(steepest > 2 / least_sites_per_width)) return;
+  if (!p.substrate || p.model != Model::sine_gordon || !(steepest > 2 / least_sites_per_width)) return;
   ranks.together([&] {
     throw InputError(
         {.key = "spacing",
