@@ -114,7 +114,7 @@ SLIPFRONT_CLONES void solve_from_logarithm(const StateArrays& a) {
     EK[i] = E;
     U[i] = s;
     solved[i] = fine ? 1.0 : 0.0;
-    s_out[i] = fine ? s : s_out[i];
+    s_out[i] = s > least && s < most ? s : s_out[i];
   }
 }
 

@@ -42,9 +42,29 @@ void Trains::resize(std::size_t count) {
     array->assign(count, 0);
 }
 
+void Trains::solve() {
+  modulation::solve_states({s.size(), spacing.data(), momentum.data(), s.data(), phi.data(), psi.data(), sound.data(),
+                            EK.data(), velocity.data(), solved.data()});
+}
+
+/// Solves again for trains whose guess was poor, as those that a front or lines of another density have reached.
+void Trains::solve_again() {
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < s.size(); ++i)
+    if (solved[i] == 0) left.push_back(i);
+  Trains some;
+  some.resize(left.size());
+  for (auto of : {&Trains::spacing, &Trains::momentum, &Trains::s})
+    for (std::size_t j = 0; j < left.size(); ++j) (some.*of)[j] = (this->*of)[left[j]];
+  some.solve();
+  for (auto of : {&Trains::s, &Trains::phi, &Trains::psi, &Trains::EK, &Trains::velocity, &Trains::solved})
+    for (std::size_t j = 0; j < left.size(); ++j)
+      if (some.solved[j] != 0) (this->*of)[left[j]] = (some.*of)[j];
+}
+
 void solve_all(Trains& t, const std::function<std::string(std::size_t)>& where) {
-  modulation::solve_states({t.at.size(), t.spacing.data(), t.momentum.data(), t.s.data(), t.phi.data(), t.psi.data(),
-                            t.sound.data(), t.EK.data(), t.velocity.data(), t.solved.data()});
+  t.solve();
+  t.solve_again();
   for (std::size_t i = 0; i < t.at.size(); ++i) {
     if (t.solved[i] != 0) continue;
     try {

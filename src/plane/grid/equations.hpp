@@ -32,6 +32,8 @@ struct Trains {
   std::vector<double> contact;  ///< empty: 1
   std::vector<double> guess;    ///< tanh(psi) of the last solution, for all cells or faces
   void resize(std::size_t count);
+  void solve();
+  void solve_again();
 };
 /// Finds the states from spacings, momenta and guesses. \throws NumericsError, whose position `where` gives, if there
 /// is none.
