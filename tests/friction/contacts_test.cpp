@@ -82,6 +82,13 @@ TEST(Contacts, GrowAsTheOldestOrMostSuckedOnesDo) {
   }
 }
 
+TEST(Contacts, KeepTheirStrengthUnderFrictionThatDoesNotChangeThem) {
+  for (const Friction& friction : {coulomb(0.5), rate_and_state_with({{"strength", 0.6}})}) {
+    EXPECT_EQ(friction.contact_at_start(), 1);
+    EXPECT_EQ(friction.contact_growth(100), 1);
+  }
+}
+
 TEST(RateAndState, BeginsWithTheGivenStateOrTheSteadyOne) {
   EXPECT_EQ(rate_and_state_with(base).state_at_start()[0], 2 / 0.05);
   auto given = base;

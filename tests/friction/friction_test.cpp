@@ -87,6 +87,24 @@ TEST(Friction, TabulatesTheRelaxationRateOfAPower) {
     }
 }
 
+TEST(Friction, FindsTheRelaxationRatesOfManyTrains) {
+  constexpr std::size_t size = 150;  // more than the loops treat at once
+  for (const double n : {0.6, 2.0})
+    for (const Closure closure : {Closure::consistent, Closure::paper}) {
+      const auto rate = power(0.7, n, closure).relaxation_rate();
+      std::vector<double> fastest, psi, rates(size);
+      for (std::size_t i = 0; i < size; ++i) {
+        psi.push_back(std::exp(-5 + 0.05 * static_cast<double>(i)));
+        fastest.push_back(2 * std::sinh(0.01 * static_cast<double>(i)) * std::cosh(psi[i]));
+      }
+      ASSERT_TRUE(rate->tabulated());
+      rate->rates(size, fastest.data(), psi.data(), rates.data());
+      EXPECT_EQ(rates[0], 0);
+      for (std::size_t i = 1; i < size; ++i)
+        EXPECT_NEAR(rates[i] / (*rate)({0.01 * static_cast<double>(i), psi[i]}, 1, {}), 1, 1e-12) << n << " " << i;
+    }
+}
+
 /// The law f = C |w|^n, which defines only its force. The library must compute all the rest numerically.
 class Bare : public Law {
  public:

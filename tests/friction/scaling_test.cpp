@@ -190,6 +190,17 @@ TEST(FrictionScaling, RejectsALawWithAWrongDimension) {
     EXPECT_NE(refusal_of(example(wrong, Dimension::force, Dimension::slip), values), "");
 }
 
+/// A law that takes a curve is checked with one.
+TEST(FrictionScaling, RejectsACurveWithoutAForceParameter) {
+  for (const Definition* known : laws()) {
+    if (known->curve == CurveSource::none) continue;
+    Definition law = *known;
+    EXPECT_NO_THROW(Friction(law, {0.5}, Closure::consistent, curve));
+    law.parameters[0].dimension = Dimension::number;
+    EXPECT_THROW(Friction(law, {0.5}, Closure::consistent, curve), InputError) << law.name;
+  }
+}
+
 /// The law f = eta w, with a strength at rest.
 class Sticking final : public Law {
  public:

@@ -66,9 +66,9 @@ AsinhMeanTable::AsinhMeanTable() {
 
 namespace {
 
-/// Positions of at most `most` trains in the table.
+/// Positions of trains in the table.
 struct PositionsInTable {
-  static constexpr std::size_t most = 64;
+  static constexpr std::size_t most = PhaseNodes::most;
   double x_A[most], x_s[most];  ///< -1 to 1 within the patch
   int patch[most];
   double difference[most], by_A[most];  ///< value of the table at this position, and its slope over x_A
@@ -114,14 +114,10 @@ SLIPFRONT_CLONES void add_to_asinh(std::size_t size, double first_A, double side
 
 void AsinhMeanTable::look_up(std::size_t size, const double* log_A, const double* A, const double* s, double* mean,
                              double* slope) const {
-  constexpr std::size_t most = PositionsInTable::most;
   PositionsInTable at;
-  for (std::size_t begin = 0; begin < size; begin += most) {
-    const std::size_t some = std::min(most, size - begin);
-    find_positions(some, columns_, std::log(least_s), least_log_A, side, log_A + begin, s + begin, at);
-    interpolate_all(some, patches_.data(), at);
-    add_to_asinh(some, std::exp(least_log_A), side, A + begin, s + begin, at, mean + begin, slope + begin);
-  }
+  find_positions(size, columns_, std::log(least_s), least_log_A, side, log_A, s, at);
+  interpolate_all(size, patches_.data(), at);
+  add_to_asinh(size, std::exp(least_log_A), side, A, s, at, mean, slope);
 }
 
 }  // namespace slipfront::friction

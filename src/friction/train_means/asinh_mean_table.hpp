@@ -20,7 +20,7 @@ class AsinhMeanTable {
   static constexpr double least_s = 1e-4, largest_s = 0.9;
   static constexpr double largest_As = 17;
   static constexpr double least_log_A = -10;  ///< below it the difference is proportional to A
-  /// Computes the mean and its slope over ln A for `size` trains. Requires A >= e^-650.
+  /// Computes the mean and its slope over ln A for `size` trains, at most PhaseNodes::most. Requires A >= e^-650.
   void look_up(std::size_t size, const double* log_A, const double* A, const double* s, double* mean,
                double* slope) const;
 

@@ -119,7 +119,7 @@ void Semidiscrete::operator()(double t, const double* y, double* dy) {
   std::fill_n(rates.widths(), 2 * n, 0.0);
   differences(count, &faces_.velocity[awake], &faces_.pressure[awake], rounding, rates.widths() + awake,
               rates.momenta() + awake);
-  if (setup_.contact) add_contact_force(y, dy);
+  if (setup_.contact) add_contact_force(dy);
   add_sources(t, y, dy);
 }
 

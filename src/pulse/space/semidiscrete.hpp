@@ -92,7 +92,7 @@ class Semidiscrete {
     double dissipation = 0, supply = 0;
   };
   Powers find_forces(double t, bool rated, bool in_force);
-  void add_contact_force(const double* y, double* dy);
+  void add_contact_force(double* dy);
 
   bool gap(std::size_t i) const { return setup_.charge[i] == 0; }
 

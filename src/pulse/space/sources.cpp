@@ -43,8 +43,7 @@ void between_centres(const Block& block, const double* centre, double* face) {
 /// In a dilute train <1 - cos u> varies as 1 / ln psi. A psi that follows from the invariants at a face has no accurate
 /// digits if it is much smaller than phi. Faces therefore take <1 - cos u> from the centres around them. Next to a free
 /// edge the density falls to zero within a cell, and the energy of one dislocation is the smooth quantity.
-void Semidiscrete::add_contact_force(const double* y, double* dy) {
-  const ConstValues values(y, size());
+void Semidiscrete::add_contact_force(double* dy) {
   const Values rates(dy, size());
   const auto square = [](double a) { return a * a; };
   std::vector<double>&centre = sources_.substrate, &face = sources_.substrate_at_faces;
@@ -57,12 +56,11 @@ void Semidiscrete::add_contact_force(const double* y, double* dy) {
       sources_.contact_force[i] = modulation::contact_source({face[i], centre[i], face[i + 1]}, {a, b, c});
   }
   for (const Block& r : blocks_) {
-    const auto of_one = [&](std::size_t i) {  // energy of a dislocation times their number, uniform over the cell
-      const double number = setup_.charge[i] * centres_.train.spacing[i] / (centres_.contact[i] * values.width(i));
-      sources_.contact_force[i] = -centre[i] * number * (square(faces_.contact[i + 1]) - square(faces_.contact[i]));
+    const auto at_edge = [&](std::size_t i) {  // the dislocations of an end cell are spread evenly over it
+      sources_.contact_force[i] = -centre[i] * (square(faces_.contact[i + 1]) - square(faces_.contact[i]));
     };
-    if (r.left == Edge::free) of_one(r.begin);
-    if (r.right == Edge::free) of_one(r.end - 1);
+    if (r.left == Edge::free) at_edge(r.begin);
+    if (r.right == Edge::free) at_edge(r.end - 1);
   }
   for (std::size_t i = 0; i < size(); ++i) rates.momentum(i) += sources_.contact_force[i];
 }

@@ -144,4 +144,25 @@ TEST(Semidiscrete, MirrorImagesHaveMirroredRates) {
       }
 }
 
+/// Streams meet if their velocities differ by more than the speed of any wave between them: phi falls by more than the
+/// sum of psi. The order is lowered from half that fall on.
+TEST(Semidiscrete, StreamsMeetIfNoWavePassesBetweenThem) {
+  constexpr std::size_t n = Mirrored::cells;
+  std::size_t flattened = 0, met = 0;
+  for (int collision = 0; collision <= 14; ++collision) {
+    Mirrored train(false, Edge::free, false, collision, 0.2);
+    const Semidiscrete equations = train.called();
+    const std::vector<State> states = equations.states();
+    bool faster = false;
+    for (std::size_t i = 1; i + 1 < n; ++i)
+      faster = faster || states[i - 1].phi - states[i + 1].phi > states[i - 1].psi + states[i + 1].psi;
+    const bool meet = equations.crossing(1e3, train.y.data()) < n;
+    EXPECT_EQ(meet, faster) << collision;
+    flattened += equations.shocked()[5] != 0 && !meet ? 1u : 0u;
+    met += meet ? 1u : 0u;
+  }
+  EXPECT_GE(flattened, 1u);
+  EXPECT_GE(met, 1u);
+}
+
 }  // namespace
