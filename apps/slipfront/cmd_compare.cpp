@@ -61,7 +61,7 @@ int run_compare(const CompareArguments& a) {
     return exit_interrupted;
   }
   print_comparison(s, levels, a.common.json);
-  if (!a.output.empty() && !a.common.json && !a.common.quiet) put("written to " + a.output + "\n");
+  if (!a.output.empty() && !a.common.json && !a.common.quiet) put(fitted("written to " + a.output));
   return exit_done;
 }
 
