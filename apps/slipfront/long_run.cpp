@@ -229,7 +229,8 @@ void put_line(const std::string& key, const std::string& value, double error, co
 bool is_irrelevant(const run::Row& row) {
   const auto* const value = std::get_if<double>(&row.value);
   if (!value) return false;
-  const bool may_be_zero = row.key().starts_with("energy_") || row.key().starts_with("pore_pressure");
+  const bool may_be_zero =
+      row.group == "energies" || row.key().starts_with("energy_") || row.key().starts_with("pore_pressure");
   return !std::isfinite(*value) || (*value == 0 && may_be_zero);
 }
 
