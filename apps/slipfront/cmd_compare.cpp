@@ -50,7 +50,7 @@ int run_compare(const CompareArguments& a) {
   const bool reached = run::compare(
       s, comparison, a.scales, output, a.common.threads, levels, [&] { progress.reset(); },
       [&](const std::string& level, double time, long steps) {
-        if (!progress) progress.emplace(s.end, !a.common.quiet, level);
+        if (!progress) progress.emplace(s.end, !a.common.quiet, level, progress_words(s));
         progress->at(time, steps);
         return interrupted_by_user();
       });

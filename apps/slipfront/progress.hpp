@@ -18,7 +18,9 @@ using slipfront::seconds_since;
 struct ProgressWords {
   const char* before = "t = ";
   const char* steps = "steps";
-  int digits = 4;  ///< digits of the current and the final value
+  int digits = 4;         ///< digits of the current and the final value
+  double unit = 1;        ///< factor of these values
+  const char* name = "";  ///< name of their unit, after a blank
 };
 
 /// A line that shows the finished fraction, the rate and the remaining time: five times a second on a terminal, where
@@ -64,9 +66,9 @@ class Progress {
     const double share = time / end_, elapsed = seconds_since(start_);
     const double gained = (time - first_time_) / end_;
     const double left = gained > 0 ? elapsed * (1 - share) / gained : 0;
-    return fmt::format("{:5.1f} %  {}{:.{}g} of {:.{}g}  {:.0f} {}/s  {:.0f} s left", 100 * share, words_.before, time,
-                       words_.digits, end_, words_.digits, static_cast<double>(steps - first_steps_) / elapsed,
-                       words_.steps, left);
+    return fmt::format("{:5.1f} %  {}{:.{}g} of {:.{}g}{}  {:.0f} {}/s  {:.0f} s left", 100 * share, words_.before,
+                       words_.unit * time, words_.digits, words_.unit * end_, words_.digits, words_.name,
+                       static_cast<double>(steps - first_steps_) / elapsed, words_.steps, left);
   }
 
   std::string label_;  ///< name of the current run, if a command has several
