@@ -50,7 +50,7 @@ int run_compare(const CompareArguments& a) {
   const bool reached = run::compare(
       s, comparison, a.scales, output, a.common.threads, levels, [&] { progress.reset(); },
       [&](const std::string& level, double time, long steps) {
-        if (!progress) progress.emplace(s.end, !a.common.quiet, level);
+        if (!progress) progress.emplace(s.end, !a.common.quiet, level, progress_words(s));
         progress->at(time, steps);
         return interrupted_by_user();
       });
@@ -61,7 +61,7 @@ int run_compare(const CompareArguments& a) {
     return exit_interrupted;
   }
   print_comparison(s, levels, a.common.json);
-  if (!a.output.empty() && !a.common.json && !a.common.quiet) put("written to " + a.output + "\n");
+  if (!a.output.empty() && !a.common.json && !a.common.quiet) put(fitted("written to " + a.output));
   return exit_done;
 }
 

@@ -102,6 +102,11 @@ std::string in_results(const scenario::Scenario& scenario, double value, std::st
   return fmt::format("{:.6g} {}", value * si.value, si.name);
 }
 
+ProgressWords progress_words(const scenario::Scenario& scenario) {
+  if (!scenario.results_in) return {};
+  return {.unit = scenario.results_in->of("b / (c A)").value, .name = " s"};
+}
+
 namespace {
 
 /// The value and the unit of a column of events.
@@ -229,7 +234,8 @@ void put_line(const std::string& key, const std::string& value, double error, co
 bool is_irrelevant(const run::Row& row) {
   const auto* const value = std::get_if<double>(&row.value);
   if (!value) return false;
-  const bool may_be_zero = row.key().starts_with("energy_") || row.key().starts_with("pore_pressure");
+  const bool may_be_zero =
+      row.group == "energies" || row.key().starts_with("energy_") || row.key().starts_with("pore_pressure");
   return !std::isfinite(*value) || (*value == 0 && may_be_zero);
 }
 
@@ -313,7 +319,7 @@ run::Options LongRun::options(std::optional<record::Checkpoint> checkpoint, Cloc
           .after_step =
               [this](double time, long steps) {
                 if (!progress_) {
-                  progress_.emplace(s_.end, first_ && !a_.common.quiet);
+                  progress_.emplace(s_.end, first_ && !a_.common.quiet, std::string(), progress_words(s_));
                   progress_->from(time, steps);
                 }
                 time_ = time;

@@ -40,6 +40,8 @@ slipfront::scenario::Scenario prepared(slipfront::scenario::Scenario scenario, c
 
 /// A number of the model in the units of the results, such as "0.1 m"; in the units of the model without a unit.
 std::string in_results(const slipfront::scenario::Scenario& scenario, double value, std::string_view unit);
+/// The words of a progress line, with times in the unit of the results.
+ProgressWords progress_words(const slipfront::scenario::Scenario& scenario);
 
 /// The law of friction with its parameters: "slip-weakening friction with strength = 0.08, residual = 0.02".
 std::string parameters_in_words(const slipfront::friction::Friction& friction);

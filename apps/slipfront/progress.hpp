@@ -18,36 +18,41 @@ using slipfront::seconds_since;
 struct ProgressWords {
   const char* before = "t = ";
   const char* steps = "steps";
-  int digits = 4;  ///< digits of the current and the final value
+  int digits = 4;         ///< digits of the current and the final value
+  double unit = 1;        ///< factor of these values
+  const char* name = "";  ///< name of their unit, after a blank
 };
 
-/// A line on a terminal that shows the finished fraction, the rate and the remaining time, five times a second.
+/// A line that shows the finished fraction, the rate and the remaining time: five times a second on a terminal, where
+/// each overwrites the one before, and otherwise once a minute.
 class Progress {
  public:
   Progress(double end, bool wanted, std::string label = {}, const ProgressWords& words = {})
       : label_(std::move(label)),
         words_(words),
         end_(end),
-        on_(wanted && isatty(STDERR_FILENO)),
+        on_(wanted),
+        on_terminal_(isatty(STDERR_FILENO) != 0),
         start_(Clock::now()),
         shown_(start_) {}
   ~Progress() {
-    if (drawn_) std::fputs("\r\x1b[K", stderr);
+    if (drawn_ && on_terminal_) std::fputs("\r\x1b[K", stderr);
   }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void at(double time, long steps) {
-    if (!on_ || seconds_since(shown_) < 0.2) return;
+    if (!on_ || seconds_since(shown_) < (on_terminal_ ? 0.2 : 60)) return;
     shown_ = Clock::now();
-    const double share = time / end_, elapsed = seconds_since(start_);
-    const double gained = (time - first_time_) / end_;
-    const double left = gained > 0 ? elapsed * (1 - share) / gained : 0;
-    std::string bar(30, '.');
-    for (std::size_t i = 0; i < static_cast<std::size_t>(share * 30); ++i) bar[i] = '#';
-    fmt::print(stderr, "\r{}{}[{}] {:5.1f} %  {}{:.{}g} of {:.{}g}  {:.0f} {}/s  {:.0f} s left\x1b[K", label_,
-               label_.empty() ? "" : " ", bar, 100 * share, words_.before, time, words_.digits, end_, words_.digits,
-               static_cast<double>(steps - first_steps_) / elapsed, words_.steps, left);
+    const double share = time / end_;
+    const std::string text = line(time, steps);
+    if (on_terminal_) {
+      std::string bar(30, '.');
+      for (std::size_t i = 0; i < static_cast<std::size_t>(share * 30); ++i) bar[i] = '#';
+      fmt::print(stderr, "\r{}{}[{}] {}\x1b[K", label_, label_.empty() ? "" : " ", bar, text);
+    } else {
+      fmt::print(stderr, "slipfront: {}{}{}\n", label_, label_.empty() ? "" : " ", text);
+    }
     std::fflush(stderr);
     drawn_ = true;
   }
@@ -57,10 +62,19 @@ class Progress {
   }
 
  private:
+  std::string line(double time, long steps) const {
+    const double share = time / end_, elapsed = seconds_since(start_);
+    const double gained = (time - first_time_) / end_;
+    const double left = gained > 0 ? elapsed * (1 - share) / gained : 0;
+    return fmt::format("{:5.1f} %  {}{:.{}g} of {:.{}g}{}  {:.0f} {}/s  {:.0f} s left", 100 * share, words_.before,
+                       words_.unit * time, words_.digits, words_.unit * end_, words_.digits, words_.name,
+                       static_cast<double>(steps - first_steps_) / elapsed, words_.steps, left);
+  }
+
   std::string label_;  ///< name of the current run, if a command has several
   ProgressWords words_;
   double end_;
-  bool on_, drawn_ = false;
+  bool on_, on_terminal_, drawn_ = false;
   Clock::time_point start_, shown_;
   double first_time_ = 0;
   long first_steps_ = 0;

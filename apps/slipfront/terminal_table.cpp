@@ -26,6 +26,21 @@ std::string shortened(const std::string& cell, std::size_t width) {
   return characters(cell) <= width ? cell : cell.substr(0, after_characters(cell, width - 1)) + "…";
 }
 
+/// Whether the blank is next to a sign of equality, as in "t = 0".
+bool is_in_equation(std::string_view text, std::size_t blank) {
+  return text[blank - 1] == '=' || text.substr(blank + 1).starts_with('=');
+}
+
+/// The blank before a short unit, as in ", in mu A / pi", if `blank` is within it; otherwise `blank`.
+std::size_t before_unit(std::string_view text, std::size_t blank) {
+  constexpr std::string_view begin = ", in ";
+  constexpr std::size_t longest = 20;
+  const std::size_t comma = text.rfind(begin, blank);
+  if (comma == std::string_view::npos || comma == 0 || blank < comma + begin.size() - 1) return blank;
+  const std::size_t end = std::min(text.find(';', comma), text.size());
+  return blank < end && end - comma <= longest ? comma + 1 : blank;
+}
+
 std::string without_trailing_blanks(std::string_view line) {
   return std::string(line.substr(0, line.find_last_not_of(' ') + 1));
 }
@@ -77,6 +92,9 @@ std::string fitted(std::string_view line, std::size_t indent) {
   while (true) {
     const std::size_t end = after_characters(rest, *width - (out.empty() ? 0 : indent));
     std::size_t blank = end == rest.size() ? std::string_view::npos : rest.rfind(' ', end);
+    while (blank != std::string_view::npos && blank > 0 && is_in_equation(rest, blank))
+      blank = rest.rfind(' ', blank - 1);
+    if (blank != std::string_view::npos) blank = before_unit(rest, blank);
     if (end < rest.size() && (blank == std::string_view::npos || blank < rest.find_first_not_of(' ')))
       blank = rest.find(' ', end);
     const std::size_t next = blank == std::string_view::npos ? blank : rest.find_first_not_of(' ', blank);

@@ -28,9 +28,31 @@ def _row(event):
     return out.getvalue()
 
 
+def is_columns(event):
+    """Returns whether a dict has a list, an array or another column for each title."""
+    return any(hasattr(value, "__len__") and not isinstance(value, (str, bytes, Mapping)) for value in event.values())
+
+
+def _rows(columns, name):
+    """Returns a dict of columns as the CSV text of a catalogue."""
+    lengths = {len(values) if hasattr(values, "__len__") and not isinstance(values, (str, bytes, Mapping)) else 0
+               for values in columns.values()}
+    if len(lengths) != 1 or 0 in lengths:
+        raise InputError(f"{name}: a dict whose values are not lists of one length; allowed: one row as "
+                         "{'rupture_velocity': '3 km/s', ...}, or columns as {'rupture_velocity': ['3 km/s', '2 km/s'], ...}")
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(columns)
+    for row in zip(*columns.values()):
+        writer.writerow(["" if value is None or value != value else value for value in row])
+    return out.getvalue()
+
+
 def _source(event, name):
     """Returns (text, name or path, whether it is a path) of one item of `events`."""
     if isinstance(event, Mapping):
+        if is_columns(event):
+            return _rows(event, name), name, False
         nested = any(isinstance(value, Mapping) for value in event.values())
         return (to_toml(event) if nested else _row(event)), name, False
     if is_path(event):
@@ -69,9 +91,9 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     Parameters
     ----------
     events : path, text, dict, DataFrame or list of these, optional
-        A .toml, .csv or .fsp file, or its text (docs/events.md). A dict is either nested like the TOML, {"event": {...},
-        "medium": {...}}, or flat with the columns of a catalogue, {"name": ..., "rupture_velocity": "3 km/s", ...}. A
-        DataFrame has these columns. The default is the catalogue that comes with slipfront.
+        A .toml, .csv or .fsp file, or its text (docs/events.md). A dict is nested like the TOML, {"event": {...},
+        "medium": {...}}, or flat with the columns of a catalogue, {"name": ..., "rupture_velocity": "3 km/s", ...}. The
+        values of a flat dict are those of one event, or lists of one length. A DataFrame has these columns. The default is the catalogue that comes with slipfront.
     p_wave_speed, poisson_ratio, shear_modulus : str or float, optional
         Elastic constants for events that give none, by default "6 km/s", 0.3 and "30 GPa".
     samples : int, optional

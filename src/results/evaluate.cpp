@@ -43,6 +43,17 @@ Frictionless frictionless_of(const inference::InferredQuantities& closed_forms) 
           value(closed_forms.contact_ratio_bound, closed_forms.contact_ratio)};
 }
 
+/// States that there are no draws, or that they are of lower bounds. Empty if there are draws of the quantities.
+std::string warning_of_draws(const EventResult& result) {
+  if (!result.posterior) return "no draws: the event is not sampled (option samples), because no number has an error";
+  std::string bounds;
+  for (const inference::Quantity& quantity : inference::bound_quantities())
+    if ((*result.estimate).*quantity.inferred)
+      bounds += (bounds.empty() ? "draw_" : ", draw_") + std::string(quantity.about.name);
+  if (bounds.empty() || !result.posterior->suffices) return {};
+  return "only lower bounds are known, and the draws are of these: " + bounds;
+}
+
 FaultPulse pulse_of(const EventResult& result, const medium::Defaults& defaults) {
   FaultPulse none;
   if (result.observation.subfaults.empty())
@@ -69,6 +80,9 @@ EventResult evaluate(Entry&& entry, const medium::Defaults& defaults, const Eval
     result.frictionless = frictionless_of(*result.estimate);
     result.posterior = posterior_of(result);
     if (result.posterior) apply_posterior(*result.estimate, *result.posterior);
+    if (options.sampling.draws > 0)
+      if (const std::string warning = warning_of_draws(result); !warning.empty())
+        result.estimate->warnings.push_back(warning);
     std::vector<LocalState> states = along_fault(result.observation, defaults);
     result.faster_than_c = finite_fault::faster_than(states, result.estimate->speed);
     if (options.along_fault) result.along_fault = std::move(states);

@@ -249,9 +249,10 @@ void require_sites(const Scenario& s, const chain::ScaledProblem& c) {
   constexpr double fewest = 8;
   const double sites = std::ceil(c.scale * (c.right - c.left) / c.spacing - 1e-9) + (c.boundary.periodic ? 0 : 1);
   if (!(sites < fewest)) return;
+  const bool by_spacing = s.chain.spacing && !s.chain.scale;
   throw InputError({.file = s.file,
-                    .key = s.chain.spacing ? "chain.spacing" : "chain.scale",
-                    .value = s.chain.spacing ? length_text(s, c.spacing) : digits(c.scale),
+                    .key = by_spacing ? "chain.spacing" : "chain.scale",
+                    .value = by_spacing ? length_text(s, c.spacing) : digits(c.scale),
                     .problem = "makes a chain of " + digits(sites) + " sites, " + length_text(s, c.spacing) + " apart",
                     .allowed = "at least 8 sites: a larger scale or domain, or a smaller chain.spacing"});
 }

@@ -25,7 +25,7 @@ class Chain(CommandLine):
         self.assertLess(abs(out["slip_at_origin"] / (2 * math.pi * 0.0482084) - 1), 0.01)
         self.assertLess(out["energy_drift"], 1e-4)
         self.assertEqual(out["charge_error"], 0)
-        self.assertIn("OK. This scenario would run", self.ok("chain", case, "--check"))
+        self.assertIn("OK. This scenario would run", self.ok("chain", case, "--check", "--wide"))
 
     def test_tends_to_the_consistent_pulse(self):
         case = os.path.join(SOURCE, "cases/step.toml")
@@ -88,7 +88,7 @@ class Chain(CommandLine):
         with open(cut, "rb") as one, open(uninterrupted, "rb") as other:
             self.assertEqual(one.read(), other.read())
         self.assertIn("4 events", self.ok("chain", case))
-        self.assertIn("implicit", self.ok("chain", case, "--check"))
+        self.assertIn("implicit", self.ok("chain", case, "--check", "--wide"))
         # The scale s of a chain changes only its units: kappa / s^2, f / s, and s times slip and time.
         scaled = self.chain(case, "--set", "chain.scale=3")["events"]
         for key in ("onset", "slip", "stress_drop", "peak_velocity", "duration"):

@@ -76,7 +76,7 @@ class Compare(CommandLine):
 
     def test_scales_are_the_scenarios_or_the_users(self):
         case = os.path.join(SOURCE, "cases/step.toml")
-        self.assertIn("scale 1000 (", self.ok("compare", case, "--check"))
+        self.assertIn("scale 1000 (", self.ok("compare", case, "--check", "--wide"))
         table = self.ok("compare", case, "--set", "chain.scale=50", "--quiet")
         self.assertIn("chain-50", table)
         self.assertNotIn("chain-100", table)

@@ -380,6 +380,15 @@ class Event(CommandLine):
         self.assertEqual(json.loads(self.ok("event", nobody, "--json", "--population"))["population"], [])
         self.assertIn("0 of 1 events", self.ok("event", nobody, "--population"))
 
+    def test_draws_of_bounds_are_named(self):
+        velocities = 'rupture_velocity = "2.8 +- 0.2 km/s"\nslip_velocity = "0.5 +- 0.1 m/s"\nrupture_velocity_is = "characteristic"\n'
+        bounds = self.file("bounds.toml", f'[event]\nname = "E"\n{velocities}')
+        exact = os.path.join(SOURCE, "cases/parkfield-2004.toml")
+        output = os.path.join(os.path.dirname(bounds), "draws.nc")
+        for path, says in ((bounds, "the draws are of these: draw_contact_ratio_bound, draw_stress_pa_bound"), (exact, "no draws: the event is not sampled")):
+            self.assertIn(says, self.ok("event", path, "--draws", "9", "-o", output, "--wide"))
+            self.assertNotIn("draws", self.ok("event", path, "--wide"))
+
     def test_one_event_is_a_report(self):
         path = self.file("e.toml", '[event]\nname = "E"\nrupture_velocity = "3.0 +- 0.2 km/s"\nslip_velocity = "0.5 */ 1.3 m/s"\n')
         event, = json.loads(self.ok("event", path, "--json"))["events"]

@@ -39,7 +39,7 @@ class Pulse(CommandLine):
         self.assertEqual(out["warnings"], [])
 
     def test_check_estimates_the_steps_and_the_time(self):
-        text = self.ok("pulse", os.path.join(SOURCE, "cases/step.toml"), "--check")
+        text = self.ok("pulse", os.path.join(SOURCE, "cases/step.toml"), "--check", "--wide")
         steps = float(re.search(r"about (\S+) steps and \S+ s\.", text).group(1))
         self.assertLess(abs(math.log(steps / 400)), math.log(3))
 
@@ -156,7 +156,7 @@ cells = 200
             out = self.pulse(case, *settings)
             self.assertEqual((out["friction_coefficient"], out["damping_number"]), (None, None), law)
             self.assertRegex(self.ok("pulse", case, *settings, "--wide"), r"friction_coefficient +null .*\ndamping_number +null ")
-            self.assertIn(f"{law[0]} friction with " if law[0] != "formula" else "drawn friction with ", self.ok("pulse", case, "--check", *settings))
+            self.assertIn(f"{law[0]} friction with " if law[0] != "formula" else "drawn friction with ", self.ok("pulse", case, "--check", "--wide", *settings))
         for C in (0, 0.5):
             out = self.pulse(case, "--set", "pulse.cells=20", "friction.law=viscous", f"friction.coefficient={C}")
             self.assertEqual(out["friction_coefficient"], C)

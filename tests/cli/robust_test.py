@@ -97,7 +97,7 @@ class Outputs(CommandLine):
 class Sizes(CommandLine):
     def sizes_by_check(self, *arguments):
         """(GB of memory, GB on the disk) that --check prints."""
-        text = self.ok(*arguments, "--check")
+        text = self.ok(*arguments, "--check", "--wide")
         return tuple(float(x) for x in re.search(r"([\d.e+-]+) GB of memory, ([\d.e+-]+) GB on the disk with -o[.,]", text).groups())
 
     def test_every_check_prints_memory_and_disk(self):

@@ -2,6 +2,7 @@
 
 import json
 import os
+import pty
 import re
 import subprocess
 import tempfile
@@ -149,6 +150,19 @@ class Units(CommandLine):
         self.assertEqual((in_si[2], in_si[4], in_model[2], in_model[4]), (" s", " m", None, None))
         for group, name in ((1, "time"), (3, "position")):
             self.assertAlmostEqual(float(in_si[group]) / (float(in_model[group]) * units[name]), 1, 4)
+
+    def test_progress_is_in_the_unit_of_the_results(self):
+        rock = ("medium.contact_ratio=0.003", "medium.asperity_spacing=1 mm", "chain.scale=20000")
+        case = os.path.join(SOURCE, "cases/step-viscous.toml")
+        terminal, end = pty.openpty()
+        with subprocess.Popen([PROGRAM, "chain", case, "--si", "--set", *rock], stdout=subprocess.DEVNULL, stderr=end) as process:
+            printed = b""
+            while b"left" not in printed:
+                printed += os.read(terminal, 65536)
+            process.kill()
+        os.close(end)
+        os.close(terminal)
+        self.assertRegex(printed.decode(), r" %  t = [\d.e-]+ of 0.000386\d* s  \d+ steps/s  \d+ s left")
 
     def test_a_unit_in_the_wrong_case_has_a_suggestion(self):
         done = self.chain_with('"5 MPa"', '"5 Mpa"')

@@ -19,6 +19,15 @@ def nothing(value):
 
 
 class Event(CommandLine):
+    def test_a_dict_of_columns_is_a_table(self):
+        table = {"name": ["a", "b"], "rupture_velocity": ["3 km/s", "2.5 +- 0.1 km/s"], "slip_velocity": ["0.5 m/s", None]}
+        xr.testing.assert_identical(slipfront.event(table), slipfront.event(pd.DataFrame(table)))
+        arrays = slipfront.event({"rupture_velocity [km/s]": np.array([3, 2.5])})
+        np.testing.assert_allclose(arrays.rupture_velocity[0] / arrays.rupture_velocity[1], 1.2)
+        for bad in ({"name": ["a", "b"], "rupture_velocity": ["3 km/s"]}, {"name": "a", "rupture_velocity": ["3 km/s"]}, {"rupture_velocity": []}):
+            with self.assertRaisesRegex(slipfront.InputError, "not lists of one length"):
+                slipfront.event(bad)
+
     def test_is_what_the_command_line_says(self):
         for files in (["cases/parkfield-2004.toml", "cases/ets.toml"], ["cases/catalogue.csv"], ["tests/data/fsp_usgs_single.fsp"]):
             files = [os.path.join(SOURCE, file) for file in files]
