@@ -7,8 +7,8 @@
 namespace slipfront::modulation {
 
 /// Arrays for solve_state in many cells. `s` = tanh(psi) is the initial guess on entry and the result on
-/// exit. Cells with s outside 1e-290 ... 0.9, or with a poor guess, get solved = 0 and a better guess. They need another
-/// call or the scalar code.
+/// exit. Cells with s outside 1e-290 ... 0.9, or with a poor guess, get solved = 0 and a better guess. They need
+/// another call or the scalar code.
 struct StateArrays {
   std::size_t size;
   const double* spacing;
