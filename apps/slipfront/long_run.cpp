@@ -220,12 +220,14 @@ struct AsText {
   std::string operator()(const std::vector<double>&) const { return {}; }
 };
 
-/// One line of the table.
+/// One line of the table. It ends with the unit, or with the meaning of a number without one. Lines without a largest
+/// width have meaning and unit.
 void put_line(const std::string& key, const std::string& value, double error, const run::Row& row) {
   const std::string known = std::isfinite(error) ? fmt::format("+- {:.2g}", error) : "";
-  const std::size_t digits = terminal_width() ? 14 : 24, errors = terminal_width() ? 10 : 12;
-  put(fitted(fmt::format("{:<26} {:<{}} {:<{}} {}", key, value, digits, known, errors,
-                         with_reason(row.meaning(), std::string(row.reason()))),
+  const std::size_t digits = terminal_width() ? 13 : 24, errors = terminal_width() ? 10 : 12;
+  const bool is_short = terminal_width() && !row.unit.empty();
+  const std::string about = is_short ? row.unit : with_reason(row.meaning(), std::string(row.reason()));
+  put(fitted(fmt::format("{:<26} {:<{}} {:<{}} {}", key, value, digits, known, errors, about),
              26 + 1 + digits + 1 + errors + 1));
 }
 
@@ -260,7 +262,8 @@ void put_rows(const std::vector<run::Row>& rows) {
     else
       put_row(row);
   if (!left_out.empty())
-    put(fitted(fmt::format("0 or without a value (--wide prints them and the reasons): {}", fmt::join(left_out, ", ")),
+    put(fitted(fmt::format("0 or without a value (--wide prints them, the reasons, and what each number means): {}",
+                           fmt::join(left_out, ", ")),
                2));
 }
 
