@@ -67,6 +67,31 @@ TEST(Semidiscrete, ReportsTheRateOfOtherFriction) {
   }
 }
 
+TEST(Semidiscrete, ReportsTheRateOfTheFastestTrain) {
+  const friction::Friction f = friction::power(1e-3, 2);
+  TwoTrains trains(f, 0.4, 0.7);
+  const pulse::Values values(trains.y.data(), TwoTrains::cells);
+  for (std::size_t i = 6; i < TwoTrains::cells; ++i) values.momentum(i) *= -2;
+  const Semidiscrete equations = trains.called();
+  const double rate = 2 * std::numbers::pi * f.mean_strength(equations.states()[8], 1) / 1.4;
+  EXPECT_NEAR(equations.friction_rate_of_fastest() / rate, 1, 1e-6);
+}
+
+/// Dislocations that are far apart and slow have the same rates, and those at rest have the limit of slow ones.
+TEST(Semidiscrete, ReportsTheRateOfSlowDiluteTrains) {
+  for (const friction::Definition* law : friction::laws()) {
+    if (law->name != "n-shaped") continue;
+    const friction::Friction f(*law, {0.1, 0.05});
+    for (const double width : {0.4, 1.5}) {
+      TwoTrains slow(f, width, 1e-8), rests(f, width, 0);
+      const Semidiscrete equations = slow.called();
+      const double rate = 2 * std::numbers::pi * f.mean_strength(equations.states()[2], 1) / 1e-8;
+      EXPECT_NEAR(equations.largest_friction_rate() / rate, 1, 1e-6) << width;
+      EXPECT_NEAR(rests.called().largest_friction_rate() / rate, 1, 1e-4) << width;
+    }
+  }
+}
+
 /// Sound crosses a cell at rest in width / c0. Gaps count as cells without width.
 TEST(Semidiscrete, ReportsTheTimeInWhichSoundCrossesACell) {
   TwoTrains trains(friction::Friction{}, 0.4, 0);
