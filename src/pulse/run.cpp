@@ -45,9 +45,10 @@ class Motions {
     const auto stops = [&] { return stopped = after_step(); };
     while (true) {
       now_->advance_to(target, stops);
-      const auto* many = dynamic_cast<const ManyTrains*>(now_.get());
-      if (many == nullptr || !many->is_over()) return now_->time() >= target;
-      now_ = one_train_after(*many);
+      if (!now_->problem().many_trains) return now_->time() >= target;
+      const auto& many = static_cast<const ManyTrains&>(*now_);
+      if (!many.is_over()) return now_->time() >= target;
+      now_ = one_train_after(many);
       if (stopped) return false;
     }
   }
