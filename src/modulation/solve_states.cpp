@@ -114,8 +114,15 @@ SLIPFRONT_CLONES void solve_from_logarithm(const StateArrays& a) {
     EK[i] = E;
     U[i] = s;
     solved[i] = fine ? 1.0 : 0.0;
-    s_out[i] = s > least && s < most ? s : s_out[i];
+    s_out[i] = fine ? s : s_out[i];
   }
+}
+
+SLIPFRONT_CLONES void find_guesses(const StateArrays& a) {
+  const double* psi = a.psi;
+  double* s = a.s;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < a.size; ++i) s[i] = exp_branch_free(clamp(psi[i], -668.0, -0.105));
 }
 
 void solve(const StateArrays& a) {
@@ -165,6 +172,11 @@ SLIPFRONT_CLONES void find_slip(const StateArrays& a, double* fastest) {
 void solve_states(const StateArrays& a) {
   solve(a);
   find_rapidities(a);
+}
+
+void improve_guesses(const StateArrays& a) {
+  approach(a);
+  find_guesses(a);
 }
 
 void solve_slip(const StateArrays& a, double* fastest) {

@@ -7,8 +7,7 @@
 namespace slipfront::modulation {
 
 /// Arrays for solve_state in many cells. `s` = tanh(psi) is the initial guess on entry and the result on
-/// exit. Cells with s outside 1e-290 ... 0.9, or with a poor guess, get solved = 0 and a better guess. They need
-/// another call or the scalar code.
+/// exit. Cells with s outside 1e-290 ... 0.9, or with a poor guess, get solved = 0 and need the scalar code.
 struct StateArrays {
   std::size_t size;
   const double* spacing;
@@ -22,6 +21,8 @@ struct StateArrays {
   double* solved;    ///< 1 or 0
 };
 void solve_states(const StateArrays& a);
+/// Replaces `s` by better guesses. From these, solve_states may solve cells that it has not solved. Overwrites psi.
+void improve_guesses(const StateArrays& a);
 /// Like solve_states, but without rapidities, sound speeds and EK. It finds instead the largest slip velocities in
 /// local units, 2 sinh |phi| cosh psi, which are all that friction needs.
 void solve_slip(const StateArrays& a, double* fastest);

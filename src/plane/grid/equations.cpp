@@ -42,9 +42,9 @@ void Trains::resize(std::size_t count) {
     array->assign(count, 0);
 }
 
-void Trains::solve() {
-  modulation::solve_states({s.size(), spacing.data(), momentum.data(), s.data(), phi.data(), psi.data(), sound.data(),
-                            EK.data(), velocity.data(), solved.data()});
+modulation::StateArrays Trains::arrays() {
+  return {s.size(),   spacing.data(), momentum.data(), s.data(),        phi.data(),
+          psi.data(), sound.data(),   EK.data(),       velocity.data(), solved.data()};
 }
 
 /// Solves again for trains whose guess was poor, as those that a front or lines of another density have reached.
@@ -56,14 +56,15 @@ void Trains::solve_again() {
   some.resize(left.size());
   for (auto of : {&Trains::spacing, &Trains::momentum, &Trains::s})
     for (std::size_t j = 0; j < left.size(); ++j) (some.*of)[j] = (this->*of)[left[j]];
-  some.solve();
+  modulation::improve_guesses(some.arrays());
+  modulation::solve_states(some.arrays());
   for (auto of : {&Trains::s, &Trains::phi, &Trains::psi, &Trains::EK, &Trains::velocity, &Trains::solved})
     for (std::size_t j = 0; j < left.size(); ++j)
       if (some.solved[j] != 0) (this->*of)[left[j]] = (some.*of)[j];
 }
 
 void solve_all(Trains& t, const std::function<std::string(std::size_t)>& where) {
-  t.solve();
+  modulation::solve_states(t.arrays());
   t.solve_again();
   for (std::size_t i = 0; i < t.at.size(); ++i) {
     if (t.solved[i] != 0) continue;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "modulation/solve_states.hpp"
 #include "plane/grid/cells.hpp"
 #include "plane/grid/walls.hpp"
 
@@ -32,7 +33,7 @@ struct Trains {
   std::vector<double> contact;  ///< empty: 1
   std::vector<double> guess;    ///< tanh(psi) of the last solution, for all cells or faces
   void resize(std::size_t count);
-  void solve();
+  modulation::StateArrays arrays();
   void solve_again();
 };
 /// Finds the states from spacings, momenta and guesses. \throws NumericsError, whose position `where` gives, if there
