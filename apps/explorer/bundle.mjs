@@ -29,6 +29,11 @@ function typeset(path) {
   return JSON.stringify(formulas, (key, value) => (key === 'tex' ? undefined : value));
 }
 
+/** Numbers of JSON with seven digits, which is more than the page shows. */
+function rounded(path) {
+  return JSON.stringify(JSON.parse(read(path)), (_, value) => (typeof value === 'number' ? Number(value.toPrecision(7)) : value));
+}
+
 const fonts = /^KaTeX_(Main-Regular|Math-Italic|Caligraphic-Regular|Size[1-4]-Regular)\.woff2$/;
 /** KaTeX's style sheet with those of its fonts that our formulas use. */
 function withFonts(path) {
@@ -52,6 +57,7 @@ const parts = {
     onLoad({ filter: /citation/, namespace: 'parts' }, () => ({ contents: read(`${root}/CITATION.cff`), loader: 'text' }));
     onLoad({ filter: /worker/, namespace: 'parts' }, async () => ({ contents: await codeOf('src/engine/worker.ts', '.js'), loader: 'text' }));
     onLoad({ filter: /formulas\.json$/ }, ({ path }) => ({ contents: typeset(path), loader: 'json' }));
+    onLoad({ filter: /events\.json$/ }, ({ path }) => ({ contents: rounded(path), loader: 'json' }));
     onLoad({ filter: /katex\.min\.css$/ }, ({ path }) => ({ contents: withFonts(path), loader: 'text' }));
     onLoad({ filter: /\.wasm$/ }, ({ path }) => ({ contents: gzipSync(readFileSync(path), { level: 9 }).toString('base64'), loader: 'text' }));
   },

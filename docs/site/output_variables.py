@@ -185,9 +185,9 @@ def main() -> None:
         print("# Output variables\n")
         print("This page lists every variable of the output files and every key of JSON. The texts and units are those that the")
         print("program writes: the page is made by running short cases. An empty unit means a pure number or a text.\n")
-        described = describe_lines("Values of `relations`", "slipfront relations", run.text("relations", "--stress", "1"))
-        described |= describe_lines("Values of `pulse`", "slipfront pulse SCENARIO", run.text("pulse", run.case("step-viscous.toml"), "--quiet"))
-        described |= describe_lines("Values of `chain`", "slipfront chain SCENARIO", run.text("chain", run.case("step-viscous.toml"), "--quiet", "--set", "chain.scale=30"))
+        described = describe_lines("Values of `relations`", "slipfront relations", run.text("relations", "--stress", "1", "--wide"))
+        described |= describe_lines("Values of `pulse`", "slipfront pulse SCENARIO", run.text("pulse", run.case("step-viscous.toml"), "--quiet", "--wide"))
+        described |= describe_lines("Values of `chain`", "slipfront chain SCENARIO", run.text("chain", run.case("step-viscous.toml"), "--quiet", "--wide", "--set", "chain.scale=30"))
         pulses = [run.file("pulse", run.case("step-viscous.toml")),
                   run.file("chain", run.case("step-viscous.toml"), "--set", "chain.scale=30", "output.displacement=true", "output.dislocations=true"), run.file("chain", run.case("stick-slip.toml"), *SHORT_LOADED_CHAIN),
                   run.file("chain", run.case("precursors.toml"), "--set", "time.end=0.5 s")]

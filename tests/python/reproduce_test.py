@@ -75,7 +75,7 @@ class Reproduction:
 def setUpModule():
     Reproduction.temporary = tempfile.TemporaryDirectory()
     Reproduction.folder = os.path.join(Reproduction.temporary.name, "reproduction")
-    done = subprocess.run([PROGRAM], capture_output=True, text=True, timeout=PATIENCE, cwd=Reproduction.temporary.name)
+    done = subprocess.run([PROGRAM, "reproduce", "--wide"], capture_output=True, text=True, timeout=PATIENCE, cwd=Reproduction.temporary.name)
     assert done.returncode == 0, done.stderr
     Reproduction.printed, Reproduction.errors = done.stdout, done.stderr
 
