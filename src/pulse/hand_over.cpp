@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
@@ -19,13 +21,12 @@ struct Face {
   double x, momentum;
 };
 
-/// The position with as many dislocations to the left as there were at a face at t = 0. Densities are linear between
-/// positions.
+/// The position with `count` dislocations to the left. Densities are linear between positions.
 Face face_at(const Counted& all, double count) {
-  const auto at = std::upper_bound(all.count.begin() + 1, all.count.end() - 1, count) - all.count.begin();
+  const auto at = std::upper_bound(all.now.begin() + 1, all.now.end() - 1, count) - all.now.begin();
   const auto right = static_cast<std::size_t>(at), left = right - 1;
-  const double width = all.x[right] - all.x[left], counted = all.count[right] - all.count[left];
-  const double share = counted > 0 ? (count - all.count[left]) / counted : 0;
+  const double width = all.x[right] - all.x[left], counted = all.now[right] - all.now[left];
+  const double share = counted > 0 ? (count - all.now[left]) / counted : 0;
   const double mean = (all.density[right] + all.density[left]) / 2;
   const double bend = mean > 0 ? (all.density[right] - all.density[left]) / mean / 2 : 0;
   const double slope = 1 - bend, root = std::sqrt(std::fmax(slope * slope + 4 * bend * share, 0));
@@ -35,20 +36,19 @@ Face face_at(const Counted& all, double count) {
           std::lerp(all.momentum[left], all.momentum[right], part) + momentum_bend * part * (part - 1)};
 }
 
-/// The free edge at a face whose cell is to the left of it (side -1) or to the right. If no empty region is left there,
-/// it is a face between cells.
-Face edge_at(const Counted& all, double count, int side) {
-  const std::size_t n = all.x.size();
-  std::size_t nearest = n;
-  for (std::size_t j = 0; j < n; ++j) {
-    const std::size_t i = side < 0 ? n - 1 - j : j, next = side < 0 ? i - 1 : i + 1;  // towards the cell
-    const bool ends = all.density[i] == 0 && j + 1 < n && all.density[next] > 0;
-    if (ends && (nearest == n || std::fabs(all.count[i] - count) < std::fabs(all.count[nearest] - count))) nearest = i;
+/// The free edge at a face whose cell is to the left of it, or to the right. If no empty region is left there, it is a
+/// face between cells.
+Face edge_at(const Counted& all, double count, bool cell_is_left) {
+  double nearest = 1e-3 * (all.now.back() - all.now.front());
+  Face edge = face_at(all, count);
+  for (std::size_t i = 0; i + 1 < all.x.size(); ++i) {
+    const std::size_t in_cell = cell_is_left ? i : i + 1, outside = cell_is_left ? i + 1 : i;
+    if (!(all.density[outside] == 0 && all.density[in_cell] > 0)) continue;
+    if (std::fabs(all.now[outside] - count) >= nearest) continue;
+    nearest = std::fabs(all.now[outside] - count);
+    edge = {all.x[outside], all.momentum[outside]};
   }
-  const Face inside = face_at(all, count);
-  const bool has_edge =
-      nearest < n && std::fabs(all.count[nearest] - count) < 1e-3 * (all.count.back() - all.count.front());
-  return has_edge ? Face{all.x[nearest], all.momentum[nearest]} : inside;
+  return edge;
 }
 
 /// The middle of where dislocations overtake each other; NaN if they do not.
@@ -65,20 +65,26 @@ double overtaking(const ManyTrains& trains) {
 }  // namespace
 
 Cells cells_of(const ManyTrains& trains, Cells cells) {
-  const Counted all = Along(trains).counted(cells.left_edge());
   const std::size_t n = cells.size();
-  double count = 0;
+  std::vector<double> faces{cells.left_edge()};
+  for (std::size_t i = 0; i < n; ++i) faces.push_back(faces.back() + cells.width(i));
+  const Counted all = Along(trains, faces).counted();
+  const auto is_empty = [&](std::size_t i) { return i >= n || cells.charge[i] == 0; };
+  // The face behind cell i - 1 and before cell i. As many dislocations are to the left as there were at t = 0.
+  const auto face = [&](std::size_t i) {
+    const auto at = std::lower_bound(all.x.begin(), all.x.end(), faces[i]) - all.x.begin();
+    const double count = all.first[static_cast<std::size_t>(at)];
+    const bool left = i > 0 && !is_empty(i - 1), right = !is_empty(i);
+    return left && right ? face_at(all, count) : edge_at(all, count, left);
+  };
+  Face left = face(0);
+  cells.left_edge() = left.x;
   for (std::size_t i = 0; i < n; ++i) {
+    const Face right = face(i + 1);
     const double charge = cells.charge[i];
-    const auto is_empty = [&](std::size_t neighbour) { return neighbour >= n || cells.charge[neighbour] == 0; };
-    const int towards = charge > 0 ? 1 : -1;  // the cell with dislocations
-    const Face left = is_empty(i - 1) || charge == 0 ? edge_at(all, count, towards) : face_at(all, count);
-    const Face right =
-        is_empty(i + 1) || charge == 0 ? edge_at(all, count + charge, -towards) : face_at(all, count + charge);
-    if (i == 0) cells.left_edge() = left.x;
     cells.width(i) = right.x - left.x;
     cells.momentum(i) = right.momentum - left.momentum;
-    count += charge;
+    left = right;
     if (charge == 0) continue;
     cells.s[i] = std::tanh(
         modulation::state_of({cells.width(i) / charge, cells.momentum(i) / charge}, std::atanh(cells.s[i])).psi);
@@ -95,8 +101,9 @@ Cells cells_of(const ManyTrains& trains, Cells cells) {
   return cells;
 }
 
-std::unique_ptr<OneTrain> one_train_after(const ManyTrains& trains) {
-  output::Findings found = trains.findings_now();
+std::unique_ptr<OneTrain> one_train_after(const ManyTrains& trains, const output::Schedule& schedule) {
+  output::Findings found = trains.findings({trains.observe(schedule)});
+  if (const std::string third = trains.third_train(); !third.empty()) found.sentences.push_back(third);
   if (found.wrong_results()) throw NumericsError("t = " + digits(trains.time()) + ": " + found.worst);
   Problem problem = trains.problem();
   problem.many_trains = false;

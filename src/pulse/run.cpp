@@ -33,14 +33,17 @@ std::unique_ptr<Motion> motion_of(Problem problem, bool many) {
 /// A motion, and the one that takes over from it.
 class Motions {
  public:
-  explicit Motions(Problem problem) : many_(problem.many_trains), now_(motion_of(std::move(problem), many_)) {}
+  explicit Motions(Problem problem) : many_(problem.many_trains) {
+    const bool follows_many = many_ && ManyTrains::can_follow(problem);
+    now_ = motion_of(std::move(problem), follows_many);
+  }
 
   Motion& operator*() const { return *now_; }
   Motion* operator->() const { return now_.get(); }
-  /// Whether the run began with many trains at one position.
-  bool began_with_many() const { return many_; }
+  /// Whether many trains at one position are asked for.
+  bool may_be_many() const { return many_; }
 
-  bool advance_to(double target, const std::function<bool()>& after_step) {
+  bool advance_to(double target, const output::Schedule& schedule, const std::function<bool()>& after_step) {
     bool stopped = false;
     const auto stops = [&] { return stopped = after_step(); };
     while (true) {
@@ -48,7 +51,7 @@ class Motions {
       if (!now_->problem().many_trains) return now_->time() >= target;
       const auto& many = static_cast<const ManyTrains&>(*now_);
       if (!many.is_over()) return now_->time() >= target;
-      now_ = one_train_after(many);
+      now_ = one_train_after(many, schedule);
       if (stopped) return false;
     }
   }
@@ -147,7 +150,7 @@ std::vector<std::string> Run::warnings() const {
 
 void Run::Parts::take_snapshot() {
   output::Snapshot s = motion->observe(schedule);
-  if (motion.began_with_many() && s.profile.trains.empty())
+  if (motion.may_be_many() && s.profile.trains.empty())
     for (const double k : s.profile.k) s.profile.trains.push_back(k > 0 ? 1 : 0);
   output::complete(s, schedule);
   snapshots.push_back(std::move(s));
@@ -165,7 +168,7 @@ bool Run::Parts::advance_to(double target, const std::function<bool()>& interrup
     return interrupted && interrupted();
   };
   const auto begun = Clock::now();
-  const bool reached = motion.advance_to(target, after_step);
+  const bool reached = motion.advance_to(target, schedule, after_step);
   stepping_seconds += seconds_since(begun);
   return reached;
 }

@@ -155,11 +155,11 @@ double Along::visible(double x) const { return x >= trains_.problem().left && x 
 double Along::conservation_error() const { return std::fabs(uncounted_) / count_; }
 
 /// The dislocations at x are those that were there at t = 0, less those that have passed.
-Counted Along::counted(double origin) const {
-  Counted all{.x = nodes_, .count = {}, .momentum = momentum_, .density = {}, .momentum_density = {}};
-  const double first = before_[at(origin)];
+Counted Along::counted() const {
+  Counted all{.x = nodes_, .first = {}, .now = {}, .momentum = momentum_, .density = {}, .momentum_density = {}};
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    all.count.push_back((before_[i] - first - slip(i)) / (2 * std::numbers::pi));
+    all.first.push_back(before_[i] / (2 * std::numbers::pi));
+    all.now.push_back((before_[i] - slip(i)) / (2 * std::numbers::pi));
     all.density.push_back(means_[i].k / (2 * std::numbers::pi));
     all.momentum_density.push_back(means_[i].P);
   }

@@ -11,9 +11,9 @@ namespace slipfront::pulse {
 
 class ManyTrains;
 
-/// At positions x: the dislocations to the left now, counted from an x at t = 0, and their momentum; densities of both.
+/// At positions x: the dislocations to the left at t = 0 and now, and the momentum of the latter; densities now.
 struct Counted {
-  std::vector<double> x, count, momentum, density, momentum_density;
+  std::vector<double> x, first, now, momentum, density, momentum_density;
 };
 
 /// Slip is the integral of the stress at t = 0 less that now, from where nothing has moved.
@@ -26,8 +26,7 @@ class Along {
   /// 2 pi times the dislocations in the domain at t = 0.
   double count() const { return count_; }
   double conservation_error() const;
-  /// Dislocations that were to the right of `origin` at t = 0 count as positive.
-  Counted counted(double origin) const;
+  Counted counted() const;
   /// All of a snapshot but what output::complete adds.
   output::Snapshot snapshot(const output::Schedule& schedule) const;
 

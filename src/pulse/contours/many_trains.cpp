@@ -291,26 +291,26 @@ bool ManyTrains::refine() {
   return changed;
 }
 
-double ManyTrains::last_time() const {
+double ManyTrains::last_time(const Problem& problem) {
   constexpr double worn_off = 4;  // C t
-  return viscosity_ > 0 ? worn_off / viscosity_ : HUGE_VAL;
+  const double viscosity = problem.friction.linear_coefficient().value_or(0);
+  return viscosity > 0 ? worn_off / viscosity : HUGE_VAL;
 }
 
-output::Findings ManyTrains::findings_now() const {
-  std::vector<double> x_edges;
-  for (int i = 0; i <= problem_.cells; ++i)
-    x_edges.push_back(std::lerp(problem_.left, problem_.right, static_cast<double>(i) / problem_.cells));
-  output::Findings found = findings({observe({.times = {time()}, .x_edges = std::move(x_edges)})});
-  if (!std::isnan(state_.third_train))
-    found.sentences.push_back(
-        "pulse: three trains are at x = " + digits(state_.third_train) + " from t = " + digits(time()) +
-        " on; the effect of friction and load is known for up to two trains, so that from then on one train with " +
-        "shocks stands for them");
-  return found;
+bool ManyTrains::can_follow(const Problem& problem) {
+  constexpr double resolved = 10;  // cells
+  return last_time(problem) > resolved * (problem.right - problem.left) / problem.cells;
+}
+
+std::string ManyTrains::third_train() const {
+  if (std::isnan(state_.third_train)) return {};
+  return "pulse: three trains are at x = " + digits(state_.third_train) + " from t = " + digits(time()) +
+         " on; the effect of friction and load is known for up to two trains, so that from then on one train with " +
+         "shocks stands for them";
 }
 
 bool ManyTrains::advance_to(double target, const std::function<bool()>& after_step) {
-  const double last = last_time();
+  const double last = last_time(problem_);
   while (time() < target && !is_over()) {
     step(std::fmin(target, last));
     aimed_ = aimed_ && target <= last;

@@ -9,7 +9,6 @@
 /// a train continues outside with the stress and the load of the end, or there is none.
 
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,9 +63,12 @@ class ManyTrains : public Motion {
   bool aimed_at_target() const override { return aimed_; }
   double expected_steps(double duration) const override;
   std::string reason_of_short_steps() const override;
+  /// Whether trains move relative to each other for longer than a wave takes to cross ten cells. If friction is
+  /// stronger, the points do not resolve how little moves until then, and one train is as good from the start.
+  static bool can_follow(const Problem& problem);
   /// Whether one train at each position has to take over. Friction wears the motion of the trains relative to each
   /// other off, and at last no points resolve them (docs/theory/9_trains.md 9.7). A third train also ends this motion.
-  bool is_over() const { return time() >= last_time() || !std::isnan(state_.third_train); }
+  bool is_over() const { return time() >= last_time(problem_) || !std::isnan(state_.third_train); }
 
   void archive(Archive& a) override;
 
@@ -74,8 +76,8 @@ class ManyTrains : public Motion {
   output::Findings findings(const std::vector<output::Snapshot>& snapshots) const override;
   std::optional<SlipTwice> slip_twice() const override;
   double conservation_error() const override;
-  /// Findings without earlier snapshots, with the reason if a third train ends this motion.
-  output::Findings findings_now() const;
+  /// A warning if a third train ends this motion; otherwise empty.
+  std::string third_train() const;
   const SlipRecord& slip() const { return state_.slip; }
 
   /// The curves at t = 0 and now.
@@ -88,7 +90,7 @@ class ManyTrains : public Motion {
  private:
   std::optional<SlipTwice> slip_twice(const Along& along) const;
   /// Time at which one train takes over.
-  double last_time() const;
+  static double last_time(const Problem& problem);
   void step(double target);
   /// One attempt at a step of this length from these points. It changes the points of the state.
   StepAttempt attempt(const Points& before, double length);
