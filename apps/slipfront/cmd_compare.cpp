@@ -29,8 +29,8 @@ void describe(const scenario::Scenario& s, const run::Comparison& c, const std::
                                  s.title.empty() ? s.file : s.title, c.exact ? "the closed form, " : "");
   for (const auto& chain : c.chains)
     text += fmt::format(", chain at scale {:.6g} ({} sites)", chain.scale, chain::problem_of(chain).grid.sites);
-  put(fitted(text + fmt::format(" over x = {} ... {} to t = {}, {}.", in_results(s, c.problem.left, "b / A"),
-                                in_results(s, c.problem.right, "b / A"), in_results(s, s.end, "b / (c A)"),
+  put(fitted(text + fmt::format(" over x = {} ... {} to t = {}, {}.", s.in_results(c.problem.left, "b / A"),
+                                s.in_results(c.problem.right, "b / A"), s.in_results(s.end, "b / (c A)"),
                                 in_words(need))));
 }
 

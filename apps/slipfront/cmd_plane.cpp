@@ -33,8 +33,8 @@ void describe(const scenario::Scenario& s, const run::PlanePlan& plan, const std
   put(fitted(fmt::format(
       "{}: OK. This scenario would follow {} over x = {} ... {}, y = {} ... {} to t = {}, with results in "
       "{} x {} cells at {} times: {:.1g} GB on the disk with -o.",
-      s.title.empty() ? s.file : s.title, solver, in_results(s, grid.left, "b / A"), in_results(s, grid.right, "b / A"),
-      in_results(s, grid.bottom, "b / A"), in_results(s, grid.top, "b / A"), in_results(s, s.end, "b / (c A)"), grid.nx,
+      s.title.empty() ? s.file : s.title, solver, s.in_results(grid.left, "b / A"), s.in_results(grid.right, "b / A"),
+      s.in_results(grid.bottom, "b / A"), s.in_results(grid.top, "b / A"), s.in_results(s.end, "b / (c A)"), grid.nx,
       grid.ny, plan.schedule.times.size(), plan.disk / 1e9)));
 }
 

@@ -43,8 +43,8 @@ void describe(const scenario::Scenario& s, const run::PulsePlan& plan, pulse::Ru
   const pulse::Problem& problem = plan.problem;
   put(fitted(fmt::format(
       "{}: OK. This scenario would run {} cells over x = {} ... {} to t = {}, {} (closure {}), {}{}.",
-      s.title.empty() ? s.file : s.title, problem.cells, in_results(s, problem.left, "b / A"),
-      in_results(s, problem.right, "b / A"), in_results(s, s.end, "b / (c A)"), parameters_in_words(s.friction),
+      s.title.empty() ? s.file : s.title, problem.cells, s.in_results(problem.left, "b / A"),
+      s.in_results(problem.right, "b / A"), s.in_results(s.end, "b / (c A)"), parameters_in_words(s.friction),
       name_of(s.friction.closure()), in_words(plan.need), duration_of(problem, run))));
 }
 

@@ -158,7 +158,7 @@ void add_differences(TerminalTable& table, const std::vector<run::Level>& levels
 }
 
 void print_table(const scenario::Scenario& s, const std::vector<run::Level>& levels) {
-  put(fitted(fmt::format("{}{}t = {}, {}", s.title, s.title.empty() ? "" : ": ", in_results(s, s.end, "b / (c A)"),
+  put(fitted(fmt::format("{}{}t = {}, {}", s.title, s.title.empty() ? "" : ": ", s.in_results(s.end, "b / (c A)"),
                          friction_in_words(s.friction, s.end))));
   put("\n");
   TerminalTable table(compare_columns);

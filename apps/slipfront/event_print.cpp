@@ -51,10 +51,12 @@ EventPrinter::Printed EventPrinter::printed(const EventResult& result, std::size
 
 void EventPrinter::take(Printed&& p) {
   if (options_.json) put(count_ == 0 ? "\n" : ",\n");
-  if (p.table)
-    table_.append(std::move(*p.table)), report_ = std::move(p.report);
-  else
+  if (p.table) {
+    table_.append(std::move(*p.table));
+    report_ = std::move(p.report);
+  } else {
     put(p.row);
+  }
   ++count_;
   sampled_ = sampled_ || p.sampled;
   if (p.member) population_.add(*p.member);
@@ -98,8 +100,7 @@ void EventPrinter::print_table(const CatalogueColumns& columns, const std::strin
   if (has_rows()) put(is_report ? report_ : table_.text());
   if (has_rows() && !options_.quiet && sampled_ && !is_report)
     put("\n" + fitted("The columns after the observed velocities are inferred. Where a row has 5 % and 95 % below it, "
-                      "they are medians of "
-                      "the posterior, which need not equal the observed values."));
+                      "they are medians of the posterior, which need not equal the observed values."));
   if (shown_.population) put(population_table(population_.decades(), count_, errors_));
   if (options_.quiet) return;
   print_notes(columns);

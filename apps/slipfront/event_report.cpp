@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
-#include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -47,13 +48,11 @@ std::string observations_of(const EventResult& result) {
 
 /// The quantity as a sentence. Empty if it is unknown.
 std::string sentence(std::string_view about, const std::optional<Inferred>& value, const std::optional<Inferred>& bound,
-                     const std::optional<double>& closed_form, ReportNumber text, std::string_view unit = "") {
+                     const std::optional<double>& closed_form, ReportNumber text) {
   if (bound)
-    return fmt::format("{} is at least {}{}: that is its value without friction.", about, with_interval(*bound, text),
-                       unit);
+    return fmt::format("{} is at least {}: that is its value without friction.", about, with_interval(*bound, text));
   if (!value) return {};
-  return fmt::format("{} is {}{}.", about, with_interval(*value, text), unit) +
-         by_closed_form(closed_form, value->value, text);
+  return fmt::format("{} is {}.", about, with_interval(*value, text)) + by_closed_form(closed_form, value->value, text);
 }
 
 std::string rupture_velocity_of(const inference::Estimate& e) {

@@ -96,12 +96,6 @@ scenario::Scenario prepared(scenario::Scenario s, const ScenarioArguments& a) {
   return s;
 }
 
-std::string in_results(const scenario::Scenario& scenario, double value, std::string_view unit) {
-  if (!scenario.results_in) return fmt::format("{:.6g}", value);
-  const medium::UnitInSi si = scenario.results_in->of(unit);
-  return fmt::format("{:.6g} {}", value * si.value, si.name);
-}
-
 ProgressWords progress_words(const scenario::Scenario& scenario) {
   if (!scenario.results_in) return {};
   return {.unit = scenario.results_in->of("b / (c A)").value, .name = " s"};
@@ -338,7 +332,7 @@ int LongRun::end(bool finished) {
   if (finished) return exit_done;
   if (first_)
     complain(output_.wanted() ? fmt::format("interrupted at t = {}; continue with {}",
-                                            in_results(s_, time_, "b / (c A)"), output_.how_to_resume())
+                                            s_.in_results(time_, "b / (c A)"), output_.how_to_resume())
                               : "interrupted; there is no checkpoint, because -o was not given");
   return exit_interrupted;
 }

@@ -38,8 +38,6 @@ std::vector<std::string> settings_of(const ScenarioArguments& arguments);
 /// Chooses the units of the results of a scenario, and prints its warnings.
 slipfront::scenario::Scenario prepared(slipfront::scenario::Scenario scenario, const ScenarioArguments& arguments);
 
-/// A number of the model in the units of the results, such as "0.1 m"; in the units of the model without a unit.
-std::string in_results(const slipfront::scenario::Scenario& scenario, double value, std::string_view unit);
 /// The words of a progress line, with times in the unit of the results.
 ProgressWords progress_words(const slipfront::scenario::Scenario& scenario);
 

@@ -28,15 +28,14 @@ def _row(event):
     return out.getvalue()
 
 
-def is_columns(event):
-    """Returns whether a dict has a list, an array or another column for each title."""
-    return any(hasattr(value, "__len__") and not isinstance(value, (str, bytes, Mapping)) for value in event.values())
+def is_column(value):
+    """Returns whether a value of a dict is a list, an array or another column."""
+    return hasattr(value, "__len__") and not isinstance(value, (str, bytes, Mapping))
 
 
 def _rows(columns, name):
     """Returns a dict of columns as the CSV text of a catalogue."""
-    lengths = {len(values) if hasattr(values, "__len__") and not isinstance(values, (str, bytes, Mapping)) else 0
-               for values in columns.values()}
+    lengths = {len(values) if is_column(values) else 0 for values in columns.values()}
     if len(lengths) != 1 or 0 in lengths:
         raise InputError(f"{name}: a dict whose values are not lists of one length; allowed: one row as "
                          "{'rupture_velocity': '3 km/s', ...}, or columns as {'rupture_velocity': ['3 km/s', '2 km/s'], ...}")
@@ -51,7 +50,7 @@ def _rows(columns, name):
 def _source(event, name):
     """Returns (text, name or path, whether it is a path) of one item of `events`."""
     if isinstance(event, Mapping):
-        if is_columns(event):
+        if any(map(is_column, event.values())):
             return _rows(event, name), name, False
         nested = any(isinstance(value, Mapping) for value in event.values())
         return (to_toml(event) if nested else _row(event)), name, False

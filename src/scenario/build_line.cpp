@@ -145,18 +145,14 @@ void require_known_motion(const Scenario& s, const pulse::Problem& p) {
                       .allowed = "trains = \"one\", or slipfront chain"});
 }
 
-/// A length in the unit of the results.
-std::string length_text(const Scenario& s, double length) {
-  return s.results_in ? digits(length * s.results_in->of("b / A").value) + " m" : digits(length);
-}
-
 void require_width(const Scenario& s, double left, double right) {
   if (left < right) return;
-  throw InputError({.file = s.file,
-                    .key = s.domain.left ? "domain.left" : "domain.right",
-                    .value = length_text(s, s.domain.left ? left : right),
-                    .problem = "out of range",
-                    .allowed = s.domain.left ? "< " + length_text(s, right) : "> " + length_text(s, left)});
+  throw InputError(
+      {.file = s.file,
+       .key = s.domain.left ? "domain.left" : "domain.right",
+       .value = s.in_results(s.domain.left ? left : right, "b / A"),
+       .problem = "out of range",
+       .allowed = s.domain.left ? "< " + s.in_results(right, "b / A") : "> " + s.in_results(left, "b / A")});
 }
 
 }  // namespace
@@ -185,7 +181,7 @@ pulse::Problem stated_problem(const Scenario& s) {
         {.file = s.file,
          .key = "domain",
          .problem = "left and right are needed with a forcing where waves are as slow as here: they reach " +
-                    length_text(s, std::fmax(reach.left, reach.right)) + ", dislocations farther",
+                    s.in_results(std::fmax(reach.left, reach.right), "b / A") + ", dislocations farther",
          .allowed = "[domain] left = ..., right = ..."});
   p.left = s.domain.left.value_or(-reach.left);
   p.right = s.domain.right.value_or(reach.right);
@@ -250,11 +246,12 @@ void require_sites(const Scenario& s, const chain::ScaledProblem& c) {
   const double sites = std::ceil(c.scale * (c.right - c.left) / c.spacing - 1e-9) + (c.boundary.periodic ? 0 : 1);
   if (!(sites < fewest)) return;
   const bool by_spacing = s.chain.spacing && !s.chain.scale;
-  throw InputError({.file = s.file,
-                    .key = by_spacing ? "chain.spacing" : "chain.scale",
-                    .value = by_spacing ? length_text(s, c.spacing) : digits(c.scale),
-                    .problem = "makes a chain of " + digits(sites) + " sites, " + length_text(s, c.spacing) + " apart",
-                    .allowed = "at least 8 sites: a larger scale or domain, or a smaller chain.spacing"});
+  throw InputError(
+      {.file = s.file,
+       .key = by_spacing ? "chain.spacing" : "chain.scale",
+       .value = by_spacing ? s.in_results(c.spacing, "b / A") : digits(c.scale),
+       .problem = "makes a chain of " + digits(sites) + " sites, " + s.in_results(c.spacing, "b / A") + " apart",
+       .allowed = "at least 8 sites: a larger scale or domain, or a smaller chain.spacing"});
 }
 
 void require_fronts(const Scenario& s, const chain::ScaledProblem& c) {

@@ -83,6 +83,12 @@ std::optional<NumberIn> number_in(std::string_view text, std::size_t from) {
 
 }  // namespace
 
+std::string Scenario::in_results(double value, std::string_view unit) const {
+  if (!results_in) return digits(value);
+  const medium::UnitInSi si = results_in->of(unit);
+  return digits(value * si.value) + " " + std::string(si.name);
+}
+
 std::string in_results(std::string_view message, const std::optional<medium::SiUnits>& units) {
   if (!units) return std::string(message);
   const double second = units->of("b / (c A)").value, metre = units->of("b / A").value;

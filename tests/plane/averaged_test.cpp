@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "foundation/archive.hpp"
+#include "resumed.hpp"
 #include "rings.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/plane/run.hpp"
@@ -175,18 +176,11 @@ TEST(PlaneAveraged, AnglesGiveTheRings) {
 TEST(PlaneAveraged, ResumesToTheSameBits) {
   Problem problem = rings::problem(slip_of_rings());
   problem.friction = friction::viscous(1).with("coefficient", {rings::friction_on_one_side, 0, 2});
-  const auto whole = plane::loops_solver(problem, {20, 32});
-  const auto part = plane::loops_solver(problem, {20, 32});
-  const auto resumed = plane::loops_solver(problem, {20, 32});
-  whole->advance_to(0.5, {});
-  part->advance_to(0.5, [] { return true; });  // one step
-  EXPECT_LT(part->time(), 0.5);
-  restore(*resumed, saved(*part));
-  EXPECT_TRUE(resumed->advance_to(0.5, {}));
-  EXPECT_EQ(resumed->steps(), whole->steps());
-  EXPECT_EQ(saved(*resumed), saved(*whole));
-  const auto other = plane::loops_solver(problem, {10, 32});
-  EXPECT_THROW(restore(*other, saved(*part)), InputError);
+  expect_the_same_bits_when_resumed(
+      [&] {
+        return plane::loops_solver(problem, {20, 32});
+      },
+      *plane::loops_solver(problem, {10, 32}));
 }
 
 std::string loops_message_of(const Problem& problem) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "foundation/archive.hpp"
+#include "resumed.hpp"
 #include "rings.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/plane/solvers.hpp"
@@ -219,18 +220,7 @@ TEST(PlaneGrid, FrictionThatRisesSteeplyLetsSlipCreep) {
 }
 
 void expect_the_same_bits(const Problem& p) {
-  const auto whole = plane::grid_solver(p, 40);
-  const auto part = plane::grid_solver(p, 40);
-  const auto resumed = plane::grid_solver(p, 40);
-  const auto other = plane::grid_solver(p, 48);
-  whole->advance_to(0.5, {});
-  part->advance_to(0.5, [] { return true; });  // one step
-  EXPECT_LT(part->time(), 0.5);
-  restore(*resumed, saved(*part));
-  EXPECT_TRUE(resumed->advance_to(0.5, {}));
-  EXPECT_EQ(resumed->steps(), whole->steps());
-  EXPECT_EQ(saved(*resumed), saved(*whole));
-  EXPECT_THROW(restore(*other, saved(*part)), InputError);
+  expect_the_same_bits_when_resumed([&] { return plane::grid_solver(p, 40); }, *plane::grid_solver(p, 48));
 }
 
 /// A run that was saved at an output time, before its observers looked, gives them the same bits.

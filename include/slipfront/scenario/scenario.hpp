@@ -117,6 +117,9 @@ struct Scenario {
   std::vector<std::string> overrides;  ///< "table.key=value", as given
   std::vector<std::string> warnings;   ///< warnings for the user before the run, one line each
 
+  /// A number of the model in the units of the results, such as "0.1 m"; in the units of the model without a unit.
+  std::string in_results(double value, std::string_view unit) const;
+
   // The following functions are made from the members above. They were checked over the domain, but a call may still
   // throw InputError if a formula fails or a table does not extend to x. Two threads must not call a formula at once.
   std::function<double(double)> stress;                  ///< initial stress at x: 0, or smallest to largest_stress

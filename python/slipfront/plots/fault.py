@@ -15,7 +15,7 @@ FIELDS = {"slip": "slip", "rupture_time": "rupture time", "rise_time": "rise tim
 CONTOURS = 8
 
 
-def edges_of(grid) -> tuple:
+def subfault_edges(grid) -> tuple:
     """Returns the edges of the subfaults of a segment in m: along strike, and down dip."""
     return tuple(numpy.arange(grid.sizes[dimension] + 1) * float(grid[size])
                  for dimension, size in (("along_strike", "cell_length"), ("down_dip", "cell_width")))
@@ -23,7 +23,7 @@ def edges_of(grid) -> tuple:
 
 def draw_segment(axes, grid, name, begin, scale) -> tuple:
     """Draws a field of one segment, from the position `begin` on. Returns the map and the end."""
-    along, down = edges_of(grid)
+    along, down = subfault_edges(grid)
     values = numpy.ma.masked_invalid(grid[name].transpose("down_dip", "along_strike").values)
     image = axes.pcolormesh(begin + along, down, values, rasterized=True, **scale)
     arrived = grid["rupture_time"].transpose("down_dip", "along_strike").values
