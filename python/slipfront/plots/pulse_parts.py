@@ -32,7 +32,7 @@ def title_of(dataset, most: int = 76) -> str:
     settings = rest.split(", ")
     while settings and with_settings:
         settings.pop()
-        shorter = f"{head} (with {', '.join([*settings, '…'])})"
+        shorter = f"{head} (with {', '.join([*settings, '…'])})" if settings else head
         if len(shorter) <= most:
             return shorter
     return text[:most - 1].rstrip() + "…"
