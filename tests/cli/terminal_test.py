@@ -48,7 +48,8 @@ class Terminal(CommandLine):
 
     def assert_fits(self, text, width):
         for line in text.splitlines():
-            self.assertLessEqual(len(line), width, line)
+            if len(line.split()) > 1:  # one word stays whole: the path of an installation may be longer
+                self.assertLessEqual(len(line), width, line)
 
     def test_every_table_fits_and_has_each_number_once(self):
         for name, (arguments, label_width) in TABLES.items():
@@ -57,8 +58,7 @@ class Terminal(CommandLine):
             for width in WIDTHS[:1] if name in SLOW else WIDTHS:
                 with self.subTest(name, width=width):
                     text = self.shown(width, *arguments)
-                    folder = max(map(len, re.findall(r"/\S+", text)), default=0)  # paths stay whole
-                    self.assert_fits(text, max(width, folder + label_width + 1))
+                    self.assert_fits(text, width)
                     self.assertEqual(words(text, labels), words(wide, labels))
 
     def test_a_comparison_repeats_the_names_of_its_parts(self):
