@@ -27,17 +27,20 @@ CompactSprings::CompactSprings(const Problem& p, const std::vector<double>& u, c
     const double a = !p.substrate ? 0 : p.contact ? p.contact(p.grid.x(own_.begin + j)) : 1;
     return a * a * std::sin(u[j]);
   };
+  if (left_fixed_ && left_end_) left_force_ = substrate(0);
+  if (right_fixed_ && right_end_) right_force_ = substrate(n_ - 1);
+  if (left_fixed_) by_left_ = force_of_end(left_end_, 1);
+  if (right_fixed_) by_right_ = force_of_end(right_end_, n_ - 2);
   if (!left_fixed_ && !right_fixed_) return;
+  const std::vector<double> forces = ranks_.joined({left_force_, right_force_});
+  for (std::size_t j = 0; j < n_; ++j) given_.push_back(drive(j, forces.front(), forces.back()));
+}
+
+/// (all) `neighbour` is the site next to the end, if that is `on_this_rank`.
+std::vector<double> CompactSprings::force_of_end(bool on_this_rank, std::size_t neighbour) const {
   std::vector<double> right(n_, 0.0);
-  if (left_fixed_ && left_end_) {
-    left_force_ = substrate(0);
-    right[1] += m_ * left_force_;
-  }
-  if (right_fixed_ && right_end_) {
-    right_force_ = substrate(n_ - 1);
-    right[n_ - 2] += m_ * right_force_;
-  }
-  given_ = force(std::move(right));
+  if (on_this_rank) right[neighbour] = m_;
+  return force(std::move(right));
 }
 
 void CompactSprings::exchange(std::initializer_list<Bordered*> arrays) const {

@@ -29,8 +29,8 @@ class Bordered {
 ///     (1 + m d2) force = d2 u / h^2,    m = 1/12 (Numerov), or 0 for the lattice of Eq. 1,
 /// with the second difference d2. The diamond rule (docs/chain.md) has the same force at rest, so both schemes have the
 /// same states at rest. d2 and 1 + m d2 commute and are symmetric with the weights of the sites. The force therefore
-/// has an energy. At a free end, u is reflected. At a fixed end, both u and the force are given; the force is that of
-/// the substrate there.
+/// has an energy. At a free end, u is reflected. At a fixed end, both u and the force are given: the force is that of
+/// the substrate there, less what drives the end (`drive`). The energy is that of the first part.
 class CompactSprings {
  public:
   /// (all) `u` is the motion of the sites of this rank at the start. Sites count from the first of this rank on.
@@ -44,8 +44,12 @@ class CompactSprings {
   bool held(std::size_t site) const {
     return (at_left_end(site) && left_fixed_) || (at_right_end(site) && right_fixed_);
   }
-  /// The value of (u_tt + S + f - F) at a site that is held.
-  double held_force(std::size_t site) const { return site == 0 ? left_force_ : right_force_; }
+  /// The substrate's part of (u_tt + S + f - F) at a site that is held.
+  double held_force(std::size_t site) const { return at_left_end(site) ? left_force_ : right_force_; }
+  /// The force on a site if the held ends are driven by these forces.
+  double drive(std::size_t site, double at_left, double at_right) const {
+    return (by_left_.empty() ? 0 : by_left_[site] * at_left) + (by_right_.empty() ? 0 : by_right_[site] * at_right);
+  }
   /// h, or h / 2 for a site at an end.
   double weight(std::size_t site) const { return at_left_end(site) || at_right_end(site) ? h_ / 2 : h_; }
   double coupling() const { return m_; }
@@ -64,6 +68,7 @@ class CompactSprings {
 
  private:
   std::vector<double> force(std::vector<double> right) const;
+  std::vector<double> force_of_end(bool on_this_rank, std::size_t neighbour) const;
 
   const Ranks& ranks_;
   OwnBlocks own_;
@@ -72,7 +77,9 @@ class CompactSprings {
   bool periodic_, left_fixed_, right_fixed_;
   bool left_end_, right_end_;  ///< whether an end of the chain is on this rank; a ring has none
   double left_force_ = 0, right_force_ = 0;
-  std::vector<double> given_;  ///< force on each site from the held ends, through m; empty if no end is held
+  /// Force on each site, through m, of a held end that is driven by 1; empty if that end is not held.
+  std::vector<double> by_left_, by_right_;
+  std::vector<double> given_;  ///< less the force on each site from the substrate of held ends; empty if none is held
 };
 
 }  // namespace slipfront::chain

@@ -168,7 +168,7 @@ void ImplicitChain::look_at_fronts() {
                      })};
   };
   const double direction = problem().loading.velocity < 0 ? -1 : 1;
-  const auto velocity = [&](std::size_t j) { return forces_.springs().held(j) ? 0 : direction * now_.w[j]; };
+  const auto velocity = [&](std::size_t j) { return direction * now_.w[j]; };
   now_.fronts.look(now_.time, means(velocity), now_.log, ahead);
 }
 

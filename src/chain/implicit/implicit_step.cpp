@@ -95,6 +95,7 @@ void ImplicitStep::prepare(const Moment& from, double dt) {
   from_ = &from;
   for (std::size_t j = 0; j < sites(); ++j)  // formulas are called from one thread
     forcing_[j] = forces_.given_forcing(j, from.time + dt / 2);
+  drives_ = forces_.drives_of_ends(from.time + dt / 2);
   double largest = 0;
   for (const double u : from.u) largest = std::fmax(largest, std::fabs(u));
   largest = forces_.ranks().largest(largest);
@@ -110,7 +111,7 @@ void ImplicitStep::prepare(const Moment& from, double dt) {
 /// The force on a site from all but its neighbours, (v' - v) / dt + S + f - F, and its slope in w. Call `rub` first.
 void ImplicitStep::evaluate(std::size_t j, double dt) {
   if (springs_.held(j)) {
-    force_[j] = springs_.held_force(j);
+    force_[j] = springs_.held_force(j) - (springs_.at_left_end(j) ? drives_.left : drives_.right);
     slope_[j] = 1;
     middle_[j] = from_->u[j];
     return;
@@ -297,7 +298,7 @@ ImplicitStep::Works ImplicitStep::works_at(const Moment& m, std::size_t j, doubl
   const double p = held ? 0 : mean_velocity(j), weight = springs_.weight(j), K = forces_.pull(j);
   const double velocity = forces_.problem().loading.velocity;
   Works at;
-  at.supplied = weight * dt * forcing_[j] * p;
+  at.supplied = weight * dt * (forcing_[j] + springs_.drive(j, drives_.left, drives_.right)) * p;
   if (K > 0) at.supplied += weight * dt * K * velocity * forces_.stretch(j, m.u[j] + dt * p / 2, m.time + dt / 2);
   if (held) return at;
   if (forces_.rubs()) at.dissipated = weight * dt * friction_[j] * p;

@@ -72,6 +72,7 @@ class ImplicitStep {
   const friction::Friction& friction_law_;
   [[maybe_unused]] int threads_;  ///< number of OpenMP threads
   const Moment* from_ = nullptr;
+  SiteForces::Drives drives_;
   double rounding_ = 0;  ///< rounding error of the force on a site
   // These have an element for each site.
   std::vector<double> w_;  ///< velocity at which friction is evaluated

@@ -17,7 +17,7 @@ struct Moment {
   double window_start = 0;       ///< time at which the present window of ImplicitChain::check_progress began
   std::vector<double> u, v;      ///< like all columns, of the sites of this rank
   std::vector<double> state;     ///< the friction law's state variables, site by site
-  std::vector<double> w, slope;  ///< velocity and slope of friction in the last step
+  std::vector<double> w, slope;  ///< velocity (0 of a held site) and slope of friction in the last step
   std::vector<double> acceleration, earlier;  ///< accelerations of the last step and of the step before it
   std::vector<double> excess;                 ///< p - p_0 of the pores; empty unless contacts change
   std::vector<double> a2;                     ///< follows from the state; empty if a is the same everywhere

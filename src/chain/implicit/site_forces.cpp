@@ -44,6 +44,14 @@ double SiteForces::forcing(const Moment& m, std::size_t j) const {
   return given_forcing(j, m.time) + pull(j) * stretch(j, m.u[j], m.time);
 }
 
+SiteForces::Drives SiteForces::drives_of_ends(double time) const {
+  const Problem& p = problem_;
+  if (p.friction.steep_at_rest()) return {};
+  const double pulled = p.loading.where == Pulled::everywhere ? p.loading.stiffness * p.loading.velocity * time : 0;
+  const auto at = [&](double x) { return (p.forcing ? p.forcing(x, time) : 0) + pulled; };
+  return {at(p.grid.x(0)), at(p.grid.x(p.grid.sites - 1))};
+}
+
 double SiteForces::friction(const Moment& m, std::size_t j, double velocity) const {
   const double force =
       problem_.friction.force(velocity, friction::LocalState(m.state).subspan(variables_ * j, variables_));

@@ -68,7 +68,13 @@ class SiteForces {
   /// F(x, t) as the problem has it, and with the pull of the springs.
   double given_forcing(std::size_t j, double time) const { return problem_.forcing ? problem_.forcing(x(j), time) : 0; }
   double forcing(const Moment& m, std::size_t j) const;
-  /// CellRange of the spring at a site that is displaced by u.
+  /// What drives the fixed ends of the chain, which do not move: F and the springs. Friction that is steep at rest
+  /// balances them next to the end already.
+  struct Drives {
+    double left = 0, right = 0;
+  };
+  Drives drives_of_ends(double time) const;
+  /// Stretch of the spring at a site that is displaced by u.
   double stretch(std::size_t j, double u, double time) const {
     return problem_.loading.velocity * time - (u - first_u_[j]);
   }

@@ -58,7 +58,7 @@ void WatchedParts::add_up(const Moment& m) {
     double u = 0, w = 0, load = 0;
     for (std::size_t j = piece.begin - offset; j < piece.end - offset; ++j) {
       u += direction_ * m.u[j];
-      w += springs.held(j) ? 0 : direction_ * m.w[j];
+      w += direction_ * m.w[j];
       if (where == Pulled::everywhere || forces_.pull(j) > 0) load += springs.weight(j) * forces_.forcing(m, j);
     }
     double* const to = &mine_[sums * i];

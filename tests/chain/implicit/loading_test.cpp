@@ -36,6 +36,29 @@ TEST(Loading, BlockOnASpringWithoutFrictionIsExact) {
   }
 }
 
+/// Between fixed ends u = x (L - x) (1 - cos t) / 10, of which springs of fourth order make no error in space: F and
+/// the springs drive both ends, which do not move.
+TEST(Loading, ForceAtFixedEndsIsExactInSpace) {
+  constexpr double length = 4, stiffness = 0.3, velocity = 0.5;
+  const auto shape = [](double x) { return x * (length - x) / 10; };
+  for (const double h : {0.4, 0.2}) {
+    Problem p = smooth_block();
+    p.grid = {0, h, static_cast<std::size_t>(std::lround(length / h)) + 1};
+    p.boundary = {.left = End::fixed, .right = End::fixed};
+    p.loading = {.stiffness = stiffness, .velocity = velocity};
+    p.forcing = [shape](double x, double t) {
+      const double u = shape(x) * (1 - std::cos(t)), bend = -0.2 * (1 - std::cos(t));
+      return shape(x) * std::cos(t) - bend - stiffness * (velocity * t - u);
+    };
+    p.tolerance = 1e-8;
+    ImplicitChain chain(p, at_rest(p));
+    chain.advance_to(5);
+    const auto w = chain.window(0, p.grid.sites);
+    for (std::size_t j = 0; j < w.u.size(); ++j) EXPECT_NEAR(w.u[j], shape(w.x[j]) * (1 - std::cos(5.0)), 1e-5) << h;
+    EXPECT_LT(budget(chain, 0), 1e-12);
+  }
+}
+
 /// Far from its other end a string whose end is pulled moves as u = g(t - x), g' + kappa g = kappa v t.
 TEST(Loading, PulledEndSendsTheExactWave) {
   for (const Pulled where : {Pulled::left, Pulled::right}) {
