@@ -37,13 +37,8 @@ double crossing_stress(const ScaledProblem& s) {
   return most;
 }
 
-/// Whether the length of the chain matters: on a ring, and where an end moves. Nothing reaches a fixed end.
-bool has_exact_length(const ScaledProblem& s) {
-  const bool fixed = s.boundary.left == End::fixed && s.boundary.right == End::fixed;
-  return s.boundary.periodic || (s.model == Model::sine_gordon && (!fixed || s.loading.acts()));
-}
-
-/// The sites of a chain of this length. A ring has one site less than other chains: the last is the first again.
+/// The sites of a chain of this length. Those of a lattice keep their spacing, so that the last may lie outside the
+/// domain. A ring has one site less than other chains: the last is the first again.
 Grid grid_of(const ScaledProblem& s) {
   const double length = s.scale * (s.right - s.left), intervals = std::ceil(length / s.spacing - 1e-9);
   if (!(intervals >= 1 && intervals < 1e15))
@@ -51,8 +46,9 @@ Grid grid_of(const ScaledProblem& s) {
                       .value = digits(s.spacing),
                       .problem = "does not divide a chain of length " + digits(length),
                       .allowed = "> 0, for 1 to 1e15 sites"});
+  const bool longer = s.model == Model::lattice && !s.boundary.periodic;
   return {.left = s.scale * s.left,
-          .spacing = has_exact_length(s) ? length / intervals : s.spacing,
+          .spacing = longer ? s.spacing : length / intervals,
           .sites = static_cast<std::size_t>(intervals) + (s.boundary.periodic ? 0 : 1)};
 }
 

@@ -68,8 +68,8 @@ class SiteForces {
   /// F(x, t) as the problem has it, and with the pull of the springs.
   double given_forcing(std::size_t j, double time) const { return problem_.forcing ? problem_.forcing(x(j), time) : 0; }
   double forcing(const Moment& m, std::size_t j) const;
-  /// What drives the fixed ends of the chain, which do not move: F and the springs. Friction that is steep at rest
-  /// balances them next to the end already.
+  /// The forces that drive the fixed ends of the chain: F and that of the springs. They are 0 under friction that is
+  /// steep at rest, which balances them next to the end already.
   struct Drives {
     double left = 0, right = 0;
   };
