@@ -90,6 +90,12 @@ OpenBands open_bands(const std::vector<double>& widths) {
   return open;
 }
 
+/// A sum whose terms add up to `size` without their signs. It is 0 where the terms of mirrored trains cancel to
+/// rounding.
+double without_rounding(double sum, double size) {
+  return std::fabs(sum) <= 4 * std::numeric_limits<double>::epsilon() * size ? 0 : sum;
+}
+
 }  // namespace
 
 std::vector<double> FilledBands::edges() const {
@@ -148,7 +154,7 @@ BandAverages averages(const FilledBands& bands) {
   for (std::size_t j = 0; j <= bands.widths.size(); ++j) result.speeds.push_back(boosted(at.speed(j), bands.centre));
   // Under a boost, (k, omega), (I, J) are vectors and H, P, Q are the components of a tensor.
   const double c = std::cosh(bands.centre), s = std::sinh(bands.centre);
-  double P = 0, H = 0, Q = 0;
+  double P = 0, H = 0, Q = 0, size_of_P = 0, size_of_W = 0;
   const GapIntegrals gaps = at.over_gaps();
   for (std::size_t i = 0; i < bands.trains(); ++i) {
     const BandIntegrals band = at.over_band(i);
@@ -161,11 +167,15 @@ BandAverages averages(const FilledBands& bands) {
     result.trains.push_back({c * band.dp + s * band.dw, c * band.dw + s * band.dp, c * I + s * J, c * J + s * I});
     result.k += result.trains.back().k;
     result.W += result.trains.back().omega;
+    size_of_W += std::fabs(result.trains.back().omega);
     result.squared_rate += result.trains.back().omega * result.trains.back().I;
     P += 4 / pi * band.sinh_dp;
+    size_of_P += 4 / pi * std::fabs(band.sinh_dp);
     H += 4 / pi * band.cosh_dp;
     Q += 4 / pi * band.sinh_dw;
   }
+  P = without_rounding(P, size_of_P);
+  result.W = without_rounding(result.W, size_of_W);
   result.P = (c * c + s * s) * P + c * s * (H + Q);
   result.H = c * c * H + 2 * c * s * P + s * s * Q;
   result.Q = s * s * H + 2 * c * s * P + c * c * Q;

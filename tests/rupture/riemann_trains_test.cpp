@@ -192,6 +192,15 @@ TEST(RiemannTrains, AreTheSlipPulseIfOneSideIsEmpty) {
   EXPECT_EQ(mirror.regions[0].from, -s.regions[0].to);
 }
 
+TEST(RiemannTrains, MirroredTrainsThatMeetHaveNoMeanMotion) {
+  for (const double phi : {0.1, 0.31, 0.7}) {
+    const TrainsPoint p = rupture::profile_point(rupture::solve_trains({phi, 0.5}, {-phi, 0.5}), 0);
+    EXPECT_EQ(p.all.W, 0);
+    EXPECT_EQ(p.all.U, 0);
+    EXPECT_EQ(p.all.P, 0);
+  }
+}
+
 TEST(RiemannTrains, LeaveAVacuumBetweenTrainsThatPart) {
   const TrainsSolution s = rupture::solve_trains({-1, 0.3}, {1, 0.2});
   ASSERT_EQ(s.regions.size(), 3U);
