@@ -38,22 +38,6 @@ void describe(const scenario::Scenario& s, const run::PlanePlan& plan, const std
       grid.ny, plan.schedule.times.size(), plan.disk / 1e9)));
 }
 
-/// Prints the results, and those of the finite-fault model with which they are compared, if any.
-void print_plane(const scenario::Scenario& s, const run::PlaneResult& result, const run::PlaneNumbers& errors,
-                 const run::FaultOnPlane* model, const ScenarioArguments& a) {
-  std::vector<run::Row> rows = rows_of(result, errors);
-  if (model)
-    for (run::Row& row : run::compare_with_model(*model, s, result)) rows.push_back(std::move(row));
-  print_summary(s, std::move(rows), result.metadata.warnings, a);
-}
-
-/// Errors of a run that processes share, and of one that a finite-fault model gives, are not estimated.
-run::PlaneNumbers errors_of(const scenario::Scenario& s, const run::PlaneResult& result, scenario::Lines lines,
-                            bool estimated, int threads) {
-  if (!estimated) return run::unknown_errors(result.numbers);
-  return run::plane_errors(s, result.numbers, {}, lines, threads);
-}
-
 bool is_model(const ScenarioArguments& a) { return a.scenario.ends_with(".fsp"); }
 
 /// Runs a scenario. If it was made from a finite-fault model, it compares the results with the model.
@@ -75,11 +59,13 @@ int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, scenar
     return exit_done;
   }
   LongRun long_run(a, s, saved && saved->finished, ranks);
-  const auto result = run::plane(s, plan, long_run.options(std::move(saved), begun));
+  auto result = run::plane(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
-  const bool estimated = !ranks && !model;
-  if (the_ranks->rank() == 0)
-    print_plane(s, result, errors_of(s, result, lines, estimated, a.common.threads), model, a);
+  if (!ranks && !model) run::add_errors(result, s, {}, lines, a.common.threads);
+  if (the_ranks->rank() > 0) return exit_done;
+  if (model)
+    for (run::Row& row : run::compare_with_model(*model, s, result)) result.summary.push_back(std::move(row));
+  print_summary(s, result.summary, result.metadata.warnings, a);
   return exit_done;
 }
 

@@ -40,7 +40,6 @@ py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int
   Watch watch(a.progress, s.end);
   run::PlanePlan plan;
   run::PlaneResult result;
-  run::PlaneNumbers errors;
   {
     const py::gil_scoped_release others_may_run;
     plan = run::plan_plane(s, lines);
@@ -49,21 +48,18 @@ py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int
     options.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
     options.after_step = [&](double time, long steps) { return watch(time, steps); };
     result = run::plane(s, plan, options);
-    errors = with_errors && !all.model && result.finished()
-                 ? run::plane_errors(
-                       s, result.numbers, [&] { return watch.interrupted(); }, lines, threads)
-                 : run::unknown_errors(result.numbers);
+    if (with_errors && !all.model && result.finished())
+      run::add_errors(
+          result, s, [&] { return watch.interrupted(); }, lines, threads);
   }
   watch.finish();
   py::dict data =
       dataset_of(result.metadata, record::plane_format, result.finished(), record::arrays_of(*result.run, plan.grid));
-  std::vector<run::Row> rows;
-  if (result.finished()) rows = rows_of(result, errors);
   if (all.model && result.finished()) {
-    for (run::Row& row : run::compare_with_model(*all.model, s, result)) rows.push_back(std::move(row));
+    for (run::Row& row : run::compare_with_model(*all.model, s, result)) result.summary.push_back(std::move(row));
     if (!all.model->fault.note.empty()) data["warnings"].cast<py::list>().append(all.model->fault.note);
   }
-  add_rows(data, std::move(rows), s.results_in);
+  add_rows(data, result.summary, s.results_in);
   return data;
 }
 

@@ -1,8 +1,8 @@
 #include "run/plane.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 #include "foundation/text/digits.hpp"
@@ -19,27 +19,18 @@ std::unique_ptr<plane::Run> begun(const scenario::Scenario& s, const PlanePlan& 
   return std::make_unique<plane::Run>(std::move(solver), plan.schedule, saved.solver_state, saved.fields);
 }
 
-/// All numbers that have an error, in one row.
-std::vector<double*> all_of(PlaneNumbers& n) {
-  plane::Energies& e = n.end.energies;
-  std::vector<double*> all = {&n.end.potency, &n.end.potency_rate, &n.end.front, &e.kinetic, &e.elastic,
-                              &e.dissipated,  &e.supplied,         &e.vanished,  &e.radiated};
-  for (auto* list : {&n.slip_at_probes, &n.slip_velocity_at_probes})
-    for (double& value : *list) all.push_back(&value);
-  return all;
-}
-
 /// The numbers at the end of a run.
-PlaneNumbers numbers_of(const plane::Run& run, const scenario::Scenario& s) {
-  return {.end = run.series().back(),
-          .slip_at_probes = run.solver().slip(s.plane->probes),
-          .slip_velocity_at_probes = run.solver().velocity(s.plane->probes)};
+std::vector<Row> rows_at_end(const plane::Run& run, const scenario::Scenario& s, double wall) {
+  return rows_of(plane::Report{.run = run,
+                               .maps = run.maps(),
+                               .slip_at_probes = run.solver().slip(s.plane->probes),
+                               .slip_velocity_at_probes = run.solver().velocity(s.plane->probes),
+                               .wall = wall});
 }
 
 /// The numbers with a fraction of the cells or of the scale; empty if the run fails or is interrupted.
-std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
-                                             const std::function<bool()>& interrupted, scenario::Lines lines,
-                                             int threads) {
+std::vector<Row> with_fewer_cells(scenario::Scenario s, int divisor, const std::function<bool()>& interrupted,
+                                  scenario::Lines lines, int threads) {
   if (lines == scenario::Lines::direct) s.chain.scale = scenario::scale_of_lines(s) / divisor;
   s.plane->loops = std::max(4, s.plane->loops / divisor);
   s.plane->angles = std::max(8, s.plane->angles / divisor);
@@ -48,11 +39,11 @@ std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
     plane::Schedule schedule = scenario::plane_schedule(s, lines);
     schedule.times = {s.end};
     plane::Run run(scenario::plane_solver(s, lines, threads), std::move(schedule));
-    return run.go(interrupted) ? std::optional(numbers_of(run, s)) : std::nullopt;
+    return run.go(interrupted) ? rows_at_end(run, s, 0) : std::vector<Row>{};
   } catch (const NumericsError&) {
-    return std::nullopt;
+    return {};
   } catch (const InputError&) {  // fewer cells do not see a held region
-    return std::nullopt;
+    return {};
   }
 }
 
@@ -73,9 +64,9 @@ PlanePlan plan_plane(const scenario::Scenario& s, scenario::Lines lines) {
 }
 
 PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const Options& options) {
-  PlaneResult result{.run = begun(s, plan, options),
-                     .metadata = metadata_of(s, plan.lines == scenario::Lines::direct ? "plane --direct" : "plane", {}),
-                     .wall = 0};
+  PlaneResult result{
+      .run = begun(s, plan, options),
+      .metadata = metadata_of(s, plan.lines == scenario::Lines::direct ? "plane --direct" : "plane", {})};
   const auto write = [&](const std::string& path, const record::PulseMetadata& metadata, const std::string& state) {
     record::write_plane(path, metadata, plan.grid, *result.run, state);
   };
@@ -86,30 +77,25 @@ PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const Opti
                   " the largest initial slip has 20 dislocation lines; a larger one brings results closer to those of "
                   "many lines"},
                  result.metadata);
-  result.numbers = numbers_of(*result.run, s);
-  result.wall = seconds_since(options.begun);
+  result.summary = rows_at_end(*result.run, s, seconds_since(options.begun));
   return result;
 }
 
-PlaneNumbers unknown_errors(PlaneNumbers numbers) {
-  for (double* const number : all_of(numbers)) *number = std::numeric_limits<double>::quiet_NaN();
-  return numbers;
-}
-
-PlaneNumbers plane_errors(const scenario::Scenario& s, const PlaneNumbers& numbers,
-                          const std::function<bool()>& interrupted, scenario::Lines lines, int threads) {
+void add_errors(PlaneResult& fine, const scenario::Scenario& s, const std::function<bool()>& interrupted,
+                scenario::Lines lines, int threads) {
   if (lines == scenario::Lines::direct && s.chain.scale) {
     scenario::Scenario by_default = s;
     by_default.chain.scale.reset();
-    if (*s.chain.scale < scenario::scale_of_lines(by_default)) return unknown_errors(numbers);
+    if (*s.chain.scale < scenario::scale_of_lines(by_default)) return;
   }
-  const std::optional<PlaneNumbers> half_of = with_fewer_cells(s, 2, interrupted, lines, threads),
-                                    quarter_of = with_fewer_cells(s, 4, interrupted, lines, threads);
-  if (!half_of || !quarter_of) return unknown_errors(numbers);
-  PlaneNumbers fine = numbers, half = *half_of, quarter = *quarter_of, errors = numbers;
-  const std::vector<double*> f = all_of(fine), h = all_of(half), q = all_of(quarter), e = all_of(errors);
-  for (std::size_t i = 0; i < e.size(); ++i) *e[i] = safety * change_of(*f[i], *h[i], *q[i]);
-  return errors;
+  const std::vector<Row> half = with_fewer_cells(s, 2, interrupted, lines, threads),
+                         quarter = with_fewer_cells(s, 4, interrupted, lines, threads);
+  if (half.empty() || quarter.empty()) return;
+  for (std::size_t row = 0; row < fine.summary.size(); ++row) {
+    if (fine.summary[row].about.error == ErrorRule::unknown) continue;
+    const std::span<const double> f = fine.summary[row].reals(), h = half[row].reals(), q = quarter[row].reals();
+    for (std::size_t i = 0; i < f.size(); ++i) fine.summary[row].errors.push_back(safety * change_of(f[i], h[i], q[i]));
+  }
 }
 
 }  // namespace slipfront::run

@@ -28,36 +28,22 @@ PlanePlan plan_plane(const scenario::Scenario& scenario, scenario::Lines lines);
 /// As for a pulse. \throws InputError also if time.end decides when the series has rows.
 record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const PlanePlan& plan);
 
-/// Results at the end of a run, or their errors, in the units of the model.
-struct PlaneNumbers {
-  plane::SeriesRow end;
-  std::vector<double> slip_at_probes, slip_velocity_at_probes;
-};
-
 struct PlaneResult {
   std::unique_ptr<plane::Run> run;
   record::PulseMetadata metadata;  ///< includes the warnings of a finished run
-  double wall = 0;                 ///< seconds of the whole command
-  PlaneNumbers numbers = {};       ///< numbers of a finished run
+  std::vector<Row> summary = {};   ///< numbers of a finished run, in the units of the model
   bool finished() const { return run->finished(); }
 };
 
 /// \throws NumericsError, after writing the results so far; InputError, FileError.
 PlaneResult plane(const scenario::Scenario& scenario, const PlanePlan& plan, const Options& options);
 
-/// The numbers of a finished run with their errors, in the units of the model.
-std::vector<Row> rows_of(const PlaneResult& result, const PlaneNumbers& errors);
-
-/// Errors that are all NaN, for a run whose errors are not known.
-PlaneNumbers unknown_errors(PlaneNumbers numbers);
-
-/// Estimates the errors of the numbers of a finished run by runs with half and a quarter of the cells, or of the scale
-/// of a direct run, which take a quarter of its time. An error is 1.5 times the larger of two changes: that of the last
-/// doubling, and half of that at the doubling before. It is NaN if a run with fewer cells fails, or if `interrupted`
-/// returned true, and for a direct run with fewer than 20 lines, whose convergence is not regular. The peak slip
-/// velocity has no error.
-PlaneNumbers plane_errors(const scenario::Scenario& scenario, const PlaneNumbers& numbers,
-                          const std::function<bool()>& interrupted, scenario::Lines lines = scenario::Lines::averaged,
-                          int threads = 1);
+/// Sets the errors of the summary of a finished run by runs with half and a quarter of the cells, or of the scale of a
+/// direct run, which take a quarter of its time. An error is 1.5 times the larger of two changes: that of the last
+/// doubling, and half of that at the doubling before. There is none if a run with fewer cells fails, or if
+/// `interrupted` returned true, and for a direct run with fewer than 20 lines, whose convergence is not regular. The
+/// peak slip velocity has no error.
+void add_errors(PlaneResult& fine, const scenario::Scenario& scenario, const std::function<bool()>& interrupted,
+                scenario::Lines lines, int threads);
 
 }  // namespace slipfront::run
