@@ -4,10 +4,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "batch.hpp"
+#include "interrupts.hpp"
 #include "json.hpp"
+#include "record/files/text_file.hpp"
 #include "record/files/unfinished.hpp"
 #include "run/tables.hpp"
 #include "terminal_table.hpp"
@@ -261,20 +265,8 @@ void put_rows(const std::vector<run::Row>& rows) {
                2));
 }
 
-}  // namespace
-
-std::string parameters_in_words(const friction::Friction& friction) {
-  std::string text;
-  for (const friction::Parameter& p : friction.definition().parameters) {
-    const double value = friction.parameter(p.name);
-    if (value == 0 && p.value == 0 && p.words.empty() && !text.empty()) continue;  // it has no effect
-    const std::string words =
-        p.words.empty() ? fmt::format("{:.6g}", value) : std::string(p.words.at(static_cast<std::size_t>(value)));
-    text += fmt::format("{}{} = {}", text.empty() ? " with " : ", ", p.name, words);
-  }
-  return fmt::format("{} friction{}", friction.definition().adjective, text);
-}
-
+/// Prints the summary of a run as a table or as one JSON object on stdout. Warnings that were not printed before go to
+/// stderr. `events` are those of a loaded chain, else null.
 void print_summary(const scenario::Scenario& scenario, std::vector<run::Row> summary,
                    const std::vector<std::string>& warnings, const ScenarioArguments& a,
                    const std::vector<output::SlipEvent>* events) {
@@ -294,9 +286,35 @@ void print_summary(const scenario::Scenario& scenario, std::vector<run::Row> sum
   if (!output.empty() && !a.common.quiet) put(fitted("written to " + output));
 }
 
+/// Checks that the output of a run can be written, of about `bytes` bytes. `of_finished`: the run continues that of a
+/// finished file. \throws FileError.
 void require_output(const ScenarioArguments& arguments, bool of_finished, double bytes) {
   record::require_disk_space(run::output_of(arguments.output, arguments.resume, of_finished).finished(), bytes);
 }
+
+/// The progress line and the output file of a run. While this object exists, Ctrl-C interrupts the
+/// run.
+class LongRun {
+ public:
+  /// `of_finished`: the run continues that of a finished file. `ranks` are the processes that share the run; null if
+  /// there is only this one.
+  LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario, bool of_finished, const Ranks* ranks);
+  /// Options of the run: its output, the checkpoint to resume from, if any, and the time `begun` when the command
+  /// began.
+  run::Options options(std::optional<record::Checkpoint> checkpoint, Clock::time_point begun);
+  /// Ends the run. If it was interrupted, prints at which time. Returns the exit code.
+  int end(bool finished);
+
+ private:
+  const ScenarioArguments& a_;
+  const scenario::Scenario& s_;
+  const Ranks* ranks_;
+  bool first_;
+  record::Output output_;
+  std::optional<WatchInterrupts> watch_;
+  std::optional<Progress> progress_;
+  double time_ = 0;
+};
 
 LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario, bool of_finished,
                  const Ranks* ranks)
@@ -335,4 +353,58 @@ int LongRun::end(bool finished) {
                                             s_.in_results(time_, "b / (c A)"), output_.how_to_resume())
                               : "interrupted; there is no checkpoint, because -o was not given");
   return exit_interrupted;
+}
+
+/// Whether processes can share a run of this solver.
+bool is_shared(scenario::SolverKind solver) {
+  return solver == scenario::SolverKind::chain || solver == scenario::SolverKind::plane_direct;
+}
+
+}  // namespace
+
+std::string parameters_in_words(const friction::Friction& friction) {
+  std::string text;
+  for (const friction::Parameter& p : friction.definition().parameters) {
+    const double value = friction.parameter(p.name);
+    if (value == 0 && p.value == 0 && p.words.empty() && !text.empty()) continue;  // it has no effect
+    const std::string words =
+        p.words.empty() ? fmt::format("{:.6g}", value) : std::string(p.words.at(static_cast<std::size_t>(value)));
+    text += fmt::format("{}{} = {}", text.empty() ? " with " : ", ", p.name, words);
+  }
+  return fmt::format("{} friction{}", friction.definition().adjective, text);
+}
+
+int plan_and_run(const ScenarioArguments& a, Clock::time_point begun, const std::function<run::Plan()>& make_plan,
+                 const std::function<std::string(const run::Plan&, output::Run&)>& in_words) {
+  run::Plan plan;
+  the_ranks->together([&] { plan = make_plan(); });  // so that an error is reported only once
+  const scenario::Scenario& s = plan.scenario;
+  the_ranks->require_same("SCENARIO", s.text);
+  const Ranks* const ranks = is_shared(plan.solver) && the_ranks->size() > 1 ? the_ranks : nullptr;
+  if (!ranks && the_ranks->rank() > 0) return exit_done;
+  std::optional<record::Checkpoint> saved;
+  const auto prepare = [&] {
+    if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, plan);
+    if (a.check) require_output(a, saved && saved->finished, plan.need.disk);
+  };
+  ranks ? ranks->together(prepare) : prepare();
+  if (ranks) ranks->require_same("--resume", saved ? saved->solver_state : "");
+  if (a.check) {
+    const run::Result start =
+        run::begin(plan, {.checkpoint = std::move(saved), .threads = a.common.threads, .ranks = ranks});
+    if (the_ranks->rank() == 0)
+      put(fitted(fmt::format("{}: OK. This scenario would {}.", s.title.empty() ? s.file : s.title,
+                             in_words(plan, *start.run))));
+    return exit_done;
+  }
+  LongRun long_run(a, s, saved && saved->finished, ranks);
+  run::Result result = run::carry_out(plan, long_run.options(std::move(saved), begun));
+  if (const int code = long_run.end(result.finished()); code != exit_done) return code;
+  std::vector<std::string> warnings = result.metadata.warnings;
+  if (result.add_errors)
+    for (std::string& warning : result.add_errors(result.summary, {})) warnings.push_back(std::move(warning));
+  const bool has_events = plan.solver == scenario::SolverKind::chain && s.loading.acts();
+  if (the_ranks->rank() == 0)
+    print_summary(s, result.summary, warnings, a, has_events ? &result.metadata.events : nullptr);
+  return exit_done;
 }

@@ -14,9 +14,7 @@ PYBIND11_MODULE(_slipfront, m) {
   bind_friction_ratio(m);
   bind_medium(m);
   bind_measured(m);
-  bind_pulse(m);
-  bind_chain(m);
-  bind_plane(m);
+  bind_runs(m);
   bind_compare(m);
   bind_event(m);
   bind_observations(m);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "foundation/clock.hpp"
 #include "record/pulses/arrays.hpp"
 #include "record/pulses/pulse_file.hpp"
 #include "run/run.hpp"
@@ -19,6 +20,7 @@ struct RunRequest {
   std::string output, resume;    ///< names of files; empty if there is none
   std::optional<bool> si;        ///< whether results are in SI units; by default as in the scenario
   py::object progress;
+  slipfront::Clock::time_point begun = slipfront::Clock::now();
 };
 RunRequest request_of(const py::dict& arguments);
 
@@ -37,14 +39,3 @@ py::dict dataset_of(const slipfront::record::PulseMetadata& metadata, const std:
 /// SI units if there are `units`.
 void add_rows(py::dict& data, std::vector<slipfront::run::Row> rows,
               const std::optional<slipfront::medium::SiUnits>& units);
-
-/// Returns the dict of a run of pulse or chain, with its summary.
-template <class Run>
-py::dict dataset_of(const slipfront::run::Result<Run>& result) {
-  const std::vector<slipfront::output::Snapshot>& snapshots = result.run->snapshots();
-  py::dict data = dataset_of(
-      result.metadata, slipfront::record::pulse_format, result.finished(),
-      slipfront::record::arrays_of(result.metadata, slipfront::record::times_of(snapshots), {&snapshots}, false));
-  add_rows(data, result.summary, result.metadata.units);
-  return data;
-}

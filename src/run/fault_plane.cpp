@@ -182,13 +182,13 @@ scenario::Scenario scenario_of_fault(const FaultOnPlane& model, const std::strin
   return s;
 }
 
-std::vector<Row> compare_with_model(const FaultOnPlane& model, const scenario::Scenario& s, const PlaneResult& result) {
+std::vector<Row> compare_with_model(const FaultOnPlane& model, const scenario::Scenario& s, const plane::Run& run) {
   const medium::Elastic rock = medium::elastic(s.medium, {});
   const medium::Units units =
       medium::units(rock.shear_modulus, rock.speed, *s.medium.contact_ratio, *s.medium.asperity_spacing);
-  const plane::Problem& p = result.run->solver().problem();
-  const plane::MapGrid grid = plane::grid_of(p, result.run->schedule());
-  const Times times = rupture_times(model, grid, p, result.run->maps(), units);
+  const plane::Problem& p = run.solver().problem();
+  const plane::MapGrid grid = plane::grid_of(p, run.schedule());
+  const Times times = rupture_times(model, grid, p, run.maps(), units);
   const auto reached = static_cast<double>(
       std::count_if(times.plane.begin(), times.plane.end(), [](double t) { return !std::isnan(t); }));
   const std::vector<plane::SeriesRow> series = series_of(model);

@@ -89,15 +89,16 @@ std::vector<Row> rows_of(const chain::Report& report) {
   return rows;
 }
 
-std::vector<Row> rows_of(const plane::Report& report) {
-  const plane::SeriesRow& end = report.run.series().back();
+std::vector<Row> rows_of(const plane::Run& run, const std::vector<plane::Point>& probes, double wall) {
+  const plane::SeriesRow& end = run.series().back();
   std::vector<Row> rows = {{output::end_time, end.time}};
   for (const plane::SeriesNumber& number : plane::series_numbers()) {
     if (number.about.error == ErrorRule::unknown) continue;
     Row& row = rows.emplace_back(number.about, number.get(end));
     if (row.about.name.starts_with("energy_")) row.group = "energies";
   }
-  add_numbers(report, plane::quantities(), rows);
+  const plane::Solver& solver = run.solver();
+  add_numbers({run, run.maps(), solver.slip(probes), solver.velocity(probes), wall}, plane::quantities(), rows);
   return rows;
 }
 

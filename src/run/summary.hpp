@@ -40,7 +40,8 @@ struct Row {
 
 std::vector<Row> rows_of(const pulse::Report& report);
 std::vector<Row> rows_of(const chain::Report& report);
-std::vector<Row> rows_of(const plane::Report& report);
+/// (all ranks)
+std::vector<Row> rows_of(const plane::Run& run, const std::vector<plane::Point>& probes, double wall);
 
 /// A number that a run of "pulse" or "chain" has. A sweep returns the results by default, but not its time and machine.
 struct NumberOfRun {

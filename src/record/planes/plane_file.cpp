@@ -32,13 +32,6 @@ int opaque(Writer& file, const char* name, const char* long_name, std::size_t si
   return variable;
 }
 
-}  // namespace
-
-std::vector<double> PlaneGrid::x() const { return centres(left, right, nx); }
-std::vector<double> PlaneGrid::y() const { return centres(bottom, top, ny); }
-
-namespace {
-
 void add_series(std::vector<Array>& all, const plane::Run& run) {
   for (const plane::SeriesNumber& number : plane::series_numbers())
     all.push_back({number.about,
@@ -54,15 +47,18 @@ void add_series(std::vector<Array>& all, const plane::Run& run) {
 
 }  // namespace
 
-std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid) {
+std::vector<Array> arrays_of(const plane::Run& run) {
   std::vector<Array> all;
+  const plane::Problem& p = run.solver().problem();
+  const plane::Schedule& schedule = run.schedule();
+  const double ratio = schedule.wave_speed_ratio;
   const std::vector<plane::Field>& snapshots = run.snapshots();
   std::vector<double> times;
   times.reserve(snapshots.size());
   for (const plane::Field& snapshot : snapshots) times.push_back(snapshot.time);
   all.push_back(coordinate(output::time_axis, times));
-  all.push_back(coordinate(plane::y_axis, grid.y(), "Y"));
-  all.push_back(coordinate(plane::x_axis, grid.x(), "X"));
+  all.push_back(coordinate(plane::y_axis, centres(ratio * p.bottom, ratio * p.top, schedule.ny), "Y"));
+  all.push_back(coordinate(plane::x_axis, centres(p.left, p.right, schedule.nx), "X"));
   const std::vector<Array::Dimension> cells = {all[1].dimensions.front(), all[2].dimensions.front()};
   for (const MemberArray<plane::Field>& field : plane::field_arrays())
     all.push_back({field.about,
@@ -76,8 +72,7 @@ std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid) {
                    {}});
   const auto maps = std::make_shared<const plane::Maps>(run.maps());
   for (const MemberArray<plane::Maps>& map : plane::map_arrays())
-    all.push_back(
-        {description_of(map, run.schedule()), cells, [maps, member = map.values] { return *maps.*member; }, {}});
+    all.push_back({description_of(map, schedule), cells, [maps, member = map.values] { return *maps.*member; }, {}});
   add_series(all, run);
   const std::vector<double> frequencies = plane::spectrum_frequencies(run.series());
   all.push_back(coordinate(plane::frequency_axis, frequencies));
@@ -85,7 +80,7 @@ std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid) {
                  all.back().dimensions,
                  [&run, frequencies] { return plane::spectrum(run.series(), frequencies); },
                  {}});
-  if (!run.schedule().lines) return all;
+  if (!schedule.lines) return all;
   const auto lines = std::make_shared<const plane::LinePoints>(plane::line_points(snapshots));
   for (const MemberArray<plane::LinePoints>& line : plane::line_arrays())
     all.push_back(
@@ -93,15 +88,15 @@ std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid) {
   return all;
 }
 
-void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run,
+void write_plane(const std::string& path, const PulseMetadata& metadata, const plane::Run& run,
                  const std::string& state) {
-  const std::size_t cells = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny);
+  const std::size_t cells = static_cast<std::size_t>(run.schedule().nx) * static_cast<std::size_t>(run.schedule().ny);
   std::size_t values = cells * (plane::field_arrays().size() * run.snapshots().size() + 2 * plane::map_arrays().size());
   for (const plane::Field& snapshot : run.snapshots())
     for (const plane::Line& line : snapshot.lines) values += 4 * (line.points.size() + 1);
   write_netcdf(path, values * sizeof(double) + (1 << 16), [&](Writer& file) {
     cf::describe_file(file, metadata, plane_format, run.finished());
-    const std::vector<Array> arrays = arrays_of(run, grid);
+    const std::vector<Array> arrays = arrays_of(run);
     const Defined defined = define(file, arrays, metadata);
     const int checkpoint = opaque(file, "checkpoint", "state of the run, to resume it", state.size());
     const int scenario = opaque(file, "scenario_text", "the scenario, byte by byte", metadata.scenario_text.size());

@@ -11,21 +11,12 @@
 
 namespace slipfront::record {
 
-/// The grid of a file, in the coordinates of the scenario.
-struct PlaneGrid {
-  double left = -1, right = 1, bottom = -1, top = 1;
-  int nx = 0, ny = 0;
-
-  std::vector<double> x() const;  ///< centres of the cells
-  std::vector<double> y() const;
-};
-
 /// The variables of a run, which must outlive them.
-std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid);
+std::vector<Array> arrays_of(const plane::Run& run);
 
 /// Writes `path` completely or not at all, with the saved state of the run. \throws FileError (one line: path and
 /// reason).
-void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run,
+void write_plane(const std::string& path, const PulseMetadata& metadata, const plane::Run& run,
                  const std::string& state);
 
 }  // namespace slipfront::record
