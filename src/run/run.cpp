@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "record/files/unfinished.hpp"
-#include "record/planes/plane_file.hpp"
 #include "record/pulses/comparison_file.hpp"
 #include "run/errors.hpp"
 #include "run/fault_plane.hpp"
@@ -140,7 +139,7 @@ Result begin_plane(const Plan& plan, const Options& options) {
                 .metadata = metadata_of(s, lines == scenario::Lines::direct ? "plane --direct" : "plane", {})};
   result.arrays = [&run](const record::PulseMetadata&) { return record::arrays_of(run); };
   result.write = [&run](const std::string& path, const record::PulseMetadata& metadata, const std::string& state) {
-    record::write_plane(path, metadata, run, state);
+    record::write_run(path, metadata, record::arrays_of(run), state, run.finished());
   };
   result.numbers = [&run, &plan](const Spent& spent) {
     std::vector<Row> rows = rows_of(run, plan.scenario.plane->probes, spent.wall);

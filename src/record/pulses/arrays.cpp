@@ -52,12 +52,7 @@ void add_events(std::vector<Array>& all, const PulseMetadata& metadata) {
   for (const output::SlipEventColumn& column : output::slip_event_columns())
     all.push_back({output::description_of(column, metadata.pulled_end),
                    {{"event", events.size()}},
-                   [&events, value = column.value] {
-                     std::vector<double> values;
-                     values.reserve(events.size());
-                     for (const output::SlipEvent& event : events) values.push_back(event.*value);
-                     return values;
-                   },
+                   values_of(events, column.value),
                    {}});
   const output::FrontRecords& fronts = metadata.fronts;
   if (fronts.events.empty()) return;
@@ -65,12 +60,7 @@ void add_events(std::vector<Array>& all, const PulseMetadata& metadata) {
   for (const MemberArray<output::FrontRecord>& column : output::front_columns())
     all.push_back({column.about,
                    {{"event", events.size()}, {output::front_position.name, fronts.x.size()}},
-                   [&fronts, member = column.values] {
-                     std::vector<double> values;
-                     for (const output::FrontRecord& event : fronts.events)
-                       values.insert(values.end(), (event.*member).begin(), (event.*member).end());
-                     return values;
-                   },
+                   values_of(fronts.events, column.values),
                    {}});
 }
 
@@ -79,13 +69,7 @@ void add_displacement(std::vector<Array>& all, const PulseMetadata& metadata, co
   all.push_back(coordinate(layout::site, metadata.sites));
   all.push_back({layout::displacement,
                  {{"time", snapshots.size()}, {layout::site.name, metadata.sites.size()}},
-                 [&snapshots] {
-                   std::vector<double> values;
-                   values.reserve(snapshots.empty() ? 0 : snapshots.size() * snapshots.front().displacement.size());
-                   for (const Snapshot& s : snapshots)
-                     values.insert(values.end(), s.displacement.begin(), s.displacement.end());
-                   return values;
-                 },
+                 values_of(snapshots, &Snapshot::displacement),
                  {}});
 }
 
@@ -137,12 +121,7 @@ Array coordinate(const Description& about, std::vector<double> values, std::stri
   return array;
 }
 
-std::vector<double> times_of(const std::vector<Snapshot>& snapshots) {
-  std::vector<double> times;
-  times.reserve(snapshots.size());
-  for (const Snapshot& snapshot : snapshots) times.push_back(snapshot.time);
-  return times;
-}
+std::vector<double> times_of(const std::vector<Snapshot>& snapshots) { return values_of(snapshots, &Snapshot::time)(); }
 
 std::vector<Array> arrays_of(const PulseMetadata& metadata, const std::vector<double>& times, const Levels& levels,
                              bool by_level) {

@@ -35,39 +35,48 @@ void check(const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots
   }
 }
 
-/// Bytes that mean nothing to anyone else.
-int opaque(Writer& file, const std::string& name, const std::string& long_name, std::size_t size) {
+/// Defines a variable of bytes that mean nothing to anyone else.
+int opaque(Writer& file, const std::string& name, const std::string& long_name, std::size_t size, bool with_reference) {
   const int variable = file.bytes(name, {file.dimension(name + "_bytes", size)});
   file.attribute(variable, "long_name", long_name);
   file.attribute(variable, "units", "1");
-  file.attribute(variable, "references", "slipfront, src/record");
+  if (with_reference) file.attribute(variable, "references", "slipfront, src/record");
   return variable;
 }
 
-/// Attributes of the file. Returns whether they hold the scenario exactly.
-bool describe_file(Writer& file, const PulseMetadata& metadata, bool finished) {
-  cf::describe_file(file, metadata, pulse_format, finished);
-  return clean_text(metadata.scenario_text, netcdf::longest_text) == metadata.scenario_text;
-}
-
-/// All of the file.
-void fill(Writer& file, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots,
-          const std::string& solver_state, bool finished, const Fields& fields, const std::vector<Array>& arrays) {
-  const bool scenario_in_attribute = describe_file(file, metadata, finished);
-  file.attribute(Writer::global, "checksum",
-                 layout::checksum(metadata.scenario_text, solver_state, finished, snapshots, fields));
-  const Defined defined = define(file, arrays, metadata);
-  const int state = opaque(file, layout::solver_state, "state of the solver, to resume the run", solver_state.size());
-  const int scenario = scenario_in_attribute ? -1
-                                             : opaque(file, layout::scenario_bytes, "the scenario, byte by byte",
-                                                      metadata.scenario_text.size());
-  file.end_definitions();
-  write(file, defined, arrays);
-  file.write(state, solver_state);
-  if (!scenario_in_attribute) file.write(scenario, metadata.scenario_text);
+std::size_t bytes_of(const std::vector<Array>& arrays) {
+  std::size_t values = 0;
+  for (const Array& array : arrays) {
+    std::size_t size = 1;
+    for (const Array::Dimension& dimension : array.dimensions) size *= dimension.size;
+    values += size;
+  }
+  return values * sizeof(double);
 }
 
 }  // namespace
+
+void write_run(const std::string& path, const PulseMetadata& metadata, const std::vector<Array>& arrays,
+               const std::string& state, bool finished, const std::string& checksum) {
+  const bool on_line = !checksum.empty();
+  const std::string& scenario = metadata.scenario_text;
+  const bool in_attribute = on_line && clean_text(scenario, netcdf::longest_text) == scenario;
+  write_netcdf(path, bytes_of(arrays) + state.size() + (1 << 16), [&](Writer& file) {
+    cf::describe_file(file, metadata, on_line ? pulse_format : plane_format, finished);
+    if (on_line) file.attribute(Writer::global, "checksum", checksum);
+    const Defined defined = define(file, arrays, metadata);
+    const int saved = opaque(file, layout::solver_state,
+                             on_line ? "state of the solver, to resume the run" : "state of the run, to resume it",
+                             state.size(), on_line);
+    const int text = in_attribute
+                         ? -1
+                         : opaque(file, layout::scenario_bytes, "the scenario, byte by byte", scenario.size(), on_line);
+    file.end_definitions();
+    write(file, defined, arrays);
+    file.write(saved, state);
+    if (!in_attribute) file.write(text, scenario);
+  });
+}
 
 std::vector<std::string> pulse_variables() {
   std::vector<std::string> names;
@@ -79,15 +88,8 @@ void write_pulse(const std::string& path, const PulseMetadata& metadata, const s
                  const std::string& solver_state, bool finished) {
   const Fields fields = chosen_fields(metadata.variables);
   check(metadata, snapshots, fields);
-  const std::vector<Array> arrays = arrays_of(metadata, times_of(snapshots), {&snapshots}, false);
-  std::size_t values = 0;
-  for (const Array& array : arrays) {
-    std::size_t size = 1;
-    for (const Array::Dimension& dimension : array.dimensions) size *= dimension.size;
-    values += size;
-  }
-  write_netcdf(path, values * sizeof(double) + solver_state.size() + (1 << 16),
-               [&](Writer& file) { fill(file, metadata, snapshots, solver_state, finished, fields, arrays); });
+  write_run(path, metadata, arrays_of(metadata, times_of(snapshots), {&snapshots}, false), solver_state, finished,
+            layout::checksum(metadata.scenario_text, solver_state, finished, snapshots, fields));
 }
 
 }  // namespace slipfront::record

@@ -59,7 +59,7 @@ std::vector<std::string> pulse_variables();
 void write_pulse(const std::string& path, const PulseMetadata& metadata, const std::vector<output::Snapshot>& snapshots,
                  const std::string& solver_state, bool finished);
 
-/// Reads a file by write_pulse or, with the format plane_format, by write_plane, with every bit as it was written.
+/// Reads a file by write_pulse or, with the format plane_format, of a run on a plane, with every bit as it was written.
 /// \throws FileError if the file is missing, not by slipfront, truncated, damaged, or changed by another program.
 Checkpoint read_checkpoint(const std::string& path, const std::string& format = pulse_format);
 
