@@ -8,8 +8,8 @@
 
 #include "bindings.hpp"
 #include "foundation/clock.hpp"
-#include "record/pulses/arrays.hpp"
-#include "record/pulses/pulse_file.hpp"
+#include "record/runs/arrays.hpp"
+#include "record/runs/run_file.hpp"
 #include "run/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
@@ -32,7 +32,7 @@ py::object time_unit_of(const slipfront::scenario::Scenario& scenario);
 /// Returns a dict {attributes, variables, warnings, units} for the Python part. Each variable is a tuple of
 /// description, dimensions, array and further attributes. The warnings are those of the metadata. The arrays are in the
 /// units of the model. If results are to be in SI units, `units` has the value of each of them.
-py::dict dataset_of(const slipfront::record::PulseMetadata& metadata, const std::string& format, bool finished,
+py::dict dataset_of(const slipfront::record::RunMetadata& metadata, const std::string& format, bool finished,
                     const std::vector<slipfront::record::Array>& arrays);
 
 /// Adds `summary`, {name: value} of each row, and `errors`, {name: error} of each row whose error is known. They are in

@@ -13,7 +13,7 @@ namespace slipfront::run {
 namespace {
 
 /// Appends the warnings of a finished run to those of its scenario.
-void add_warnings(const std::vector<std::string>& of_run, record::PulseMetadata& metadata) {
+void add_warnings(const std::vector<std::string>& of_run, record::RunMetadata& metadata) {
   for (const std::string& warning : of_run) metadata.warnings.push_back(scenario::in_results(warning, metadata.units));
 }
 
@@ -49,7 +49,7 @@ class Checkpoints {
     const auto begun = Clock::now();
     const output::Run& run = *result_.run;
     const std::string state = run.saved();  // all ranks send their parts to the first rank
-    record::PulseMetadata metadata = result_.metadata;
+    record::RunMetadata metadata = result_.metadata;
     if (run.finished()) add_warnings(run.warnings(), metadata);  // warnings() needs all ranks
     on_first([&] {
       const record::Output& output = options_.output;

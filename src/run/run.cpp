@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "record/files/unfinished.hpp"
-#include "record/pulses/comparison_file.hpp"
+#include "record/runs/comparison_file.hpp"
 #include "run/errors.hpp"
 #include "run/fault_plane.hpp"
 #include "slipfront/scenario/problem.hpp"
@@ -32,8 +32,8 @@ void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si) {
     scenario.warnings.push_back("SI units were converted with " + assumed + ", which [medium] does not give");
 }
 
-record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
-                                  const std::vector<double>& x_edges, const std::vector<double>& scales) {
+record::RunMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
+                                const std::vector<double>& x_edges, const std::vector<double>& scales) {
   std::vector<std::string> variables = scenario.output.variables;
   if (!scenario.pulse.many_trains || command != "pulse")
     std::erase(variables, "trains");
@@ -84,11 +84,11 @@ Result on_line(std::unique_ptr<Run> owned, const Plan& plan, const char* command
   return {.run = std::move(owned),
           .metadata = metadata_of(plan.scenario, command, plan.on_line.x_edges),
           .arrays =
-              [&run](const record::PulseMetadata& metadata) {
+              [&run](const record::RunMetadata& metadata) {
                 return record::arrays_of(metadata, record::times_of(run.snapshots()), {&run.snapshots()}, false);
               },
           .write =
-              [&run](const std::string& path, const record::PulseMetadata& metadata, const std::string& state) {
+              [&run](const std::string& path, const record::RunMetadata& metadata, const std::string& state) {
                 record::write_pulse(path, metadata, run.snapshots(), state, run.finished());
               }};
 }
@@ -111,7 +111,7 @@ Result begin_chain(const Plan& plan, const Options& options) {
   Result result = on_line(std::move(owned), plan, "chain");
   if (plan.on_line.displacement) result.metadata.sites = run.sites();
   result.metadata.paths = run.path_settings();
-  result.describe = [&run](record::PulseMetadata& metadata) {
+  result.describe = [&run](record::RunMetadata& metadata) {
     metadata.events = run.events();
     metadata.fronts = run.fronts();
   };
@@ -137,8 +137,8 @@ Result begin_plane(const Plan& plan, const Options& options) {
   const plane::Run& run = *owned;
   Result result{.run = std::move(owned),
                 .metadata = metadata_of(s, lines == scenario::Lines::direct ? "plane --direct" : "plane", {})};
-  result.arrays = [&run](const record::PulseMetadata&) { return record::arrays_of(run); };
-  result.write = [&run](const std::string& path, const record::PulseMetadata& metadata, const std::string& state) {
+  result.arrays = [&run](const record::RunMetadata&) { return record::arrays_of(run); };
+  result.write = [&run](const std::string& path, const record::RunMetadata& metadata, const std::string& state) {
     record::write_run(path, metadata, record::arrays_of(run), state, run.finished());
   };
   result.numbers = [&run, &plan](const Spent& spent) {

@@ -12,8 +12,8 @@
 #include "foundation/clock.hpp"
 #include "foundation/ranks.hpp"
 #include "record/files/unfinished.hpp"
-#include "record/pulses/arrays.hpp"
-#include "record/pulses/pulse_file.hpp"
+#include "record/runs/arrays.hpp"
+#include "record/runs/run_file.hpp"
 #include "run/compare.hpp"
 #include "run/summary.hpp"
 #include "scenario/estimate.hpp"
@@ -44,8 +44,8 @@ struct Options {
 void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si);
 
 /// The metadata for the file of a run of `command`.
-record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
-                                  const std::vector<double>& x_edges, const std::vector<double>& scales = {});
+record::RunMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
+                                const std::vector<double>& x_edges, const std::vector<double>& scales = {});
 
 struct FaultOnPlane;
 
@@ -97,16 +97,16 @@ struct Spent {
 /// A run by any solver.
 struct Result {
   std::unique_ptr<output::Run> run;
-  record::PulseMetadata metadata;  ///< includes the warnings of a finished run
-  std::vector<Row> summary = {};   ///< numbers of a finished run, in the units of the model
+  record::RunMetadata metadata;   ///< includes the warnings of a finished run
+  std::vector<Row> summary = {};  ///< numbers of a finished run, in the units of the model
 
   // Functions that differ from solver to solver. They refer to the run and its plan.
   /// Adds the events so far to the metadata. Null: the run has no events.
-  std::function<void(record::PulseMetadata& metadata)> describe = {};
+  std::function<void(record::RunMetadata& metadata)> describe = {};
   /// Returns the variables of the file.
-  std::function<std::vector<record::Array>(const record::PulseMetadata& metadata)> arrays = {};
+  std::function<std::vector<record::Array>(const record::RunMetadata& metadata)> arrays = {};
   /// Writes the run and its saved state to a file.
-  std::function<void(const std::string& path, const record::PulseMetadata& metadata, const std::string& state)> write =
+  std::function<void(const std::string& path, const record::RunMetadata& metadata, const std::string& state)> write =
       {};
   /// (all ranks) Returns the summary.
   std::function<std::vector<Row>(const Spent& spent)> numbers = {};

@@ -1,7 +1,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "record/pulses/arrays.hpp"
+#include "record/runs/arrays.hpp"
 #include "slipfront/plane/quantities.hpp"
 #include "slipfront/plane/source_parameters.hpp"
 

@@ -1,4 +1,4 @@
-#include "record/pulses/arrays.hpp"
+#include "record/runs/arrays.hpp"
 
 #include <memory>
 #include <numeric>
@@ -8,9 +8,9 @@
 #include "foundation/machine.hpp"
 #include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
-#include "record/pulses/cf.hpp"
-#include "record/pulses/pulse_layout.hpp"
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/cf.hpp"
+#include "record/runs/run_layout.hpp"
+#include "record/runs/run_variables.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/output/dislocation_paths.hpp"
 #include "slipfront/output/quantities.hpp"
@@ -46,7 +46,7 @@ void add_axes(std::vector<Array>& all, const std::vector<double>& times, const s
 }
 
 /// The slip events, and their arrivals at the positions that the scenario asks for.
-void add_events(std::vector<Array>& all, const PulseMetadata& metadata) {
+void add_events(std::vector<Array>& all, const RunMetadata& metadata) {
   const std::vector<output::SlipEvent>& events = metadata.events;
   if (events.empty()) return;
   for (const output::SlipEventColumn& column : output::slip_event_columns())
@@ -64,7 +64,7 @@ void add_events(std::vector<Array>& all, const PulseMetadata& metadata) {
                    {}});
 }
 
-void add_displacement(std::vector<Array>& all, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+void add_displacement(std::vector<Array>& all, const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
   if (metadata.sites.empty()) return;
   all.push_back(coordinate(layout::site, metadata.sites));
   all.push_back({layout::displacement,
@@ -82,7 +82,7 @@ void require_memory(const output::DislocationPaths& paths) {
                         " GB; fewer outputs are needed");
 }
 
-void add_dislocations(std::vector<Array>& all, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+void add_dislocations(std::vector<Array>& all, const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
   const auto paths =
       std::make_shared<const output::DislocationPaths>(output::dislocation_paths(snapshots, metadata.paths));
   const std::size_t count = paths->signs.size();
@@ -123,7 +123,7 @@ Array coordinate(const Description& about, std::vector<double> values, std::stri
 
 std::vector<double> times_of(const std::vector<Snapshot>& snapshots) { return values_of(snapshots, &Snapshot::time)(); }
 
-std::vector<Array> arrays_of(const PulseMetadata& metadata, const std::vector<double>& times, const Levels& levels,
+std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<double>& times, const Levels& levels,
                              bool by_level) {
   std::vector<Array> all;
   add_axes(all, times, metadata.x_edges);
@@ -157,7 +157,7 @@ std::vector<Array> arrays_of(const PulseMetadata& metadata, const std::vector<do
   return all;
 }
 
-Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const PulseMetadata& metadata) {
+Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const RunMetadata& metadata) {
   Defined defined;
   for (const Array& array : arrays) {
     std::vector<int> ids;

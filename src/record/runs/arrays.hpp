@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "record/netcdf/netcdf.hpp"
-#include "record/pulses/pulse_file.hpp"
+#include "record/runs/run_file.hpp"
 #include "slipfront/description.hpp"
 #include "slipfront/plane/run.hpp"
 
@@ -39,7 +39,7 @@ std::vector<double> times_of(const std::vector<output::Snapshot>& snapshots);
 
 /// The variables of a run along a line, or of a comparison `by_level`, where "level" is the first dimension. They refer
 /// to the arguments. \throws InputError if the metadata has an unknown variable.
-std::vector<Array> arrays_of(const PulseMetadata& metadata, const std::vector<double>& times, const Levels& levels,
+std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<double>& times, const Levels& levels,
                              bool by_level);
 
 /// The variables of a run on a plane, which must outlive them.
@@ -68,13 +68,13 @@ struct Defined {
   std::map<std::string_view, int> dimensions;
   std::vector<int> variables;
 };
-Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const PulseMetadata& metadata);
+Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const RunMetadata& metadata);
 /// Writes the values of arrays that `define` has defined.
 void write(netcdf::Writer& file, const Defined& defined, const std::vector<Array>& arrays);
 
 /// Writes the file of a run, completely or not at all, with its saved state. On a plane there is no `checksum`. \throws
 /// FileError (one line: path and reason).
-void write_run(const std::string& path, const PulseMetadata& metadata, const std::vector<Array>& arrays,
+void write_run(const std::string& path, const RunMetadata& metadata, const std::vector<Array>& arrays,
                const std::string& state, bool finished, const std::string& checksum = {});
 
 }  // namespace slipfront::record

@@ -1,14 +1,14 @@
-#include "record/pulses/pulse_file.hpp"
+#include "record/runs/run_file.hpp"
 
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
 
 #include "record/netcdf/netcdf.hpp"
-#include "record/pulses/arrays.hpp"
-#include "record/pulses/cf.hpp"
-#include "record/pulses/pulse_layout.hpp"
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/arrays.hpp"
+#include "record/runs/cf.hpp"
+#include "record/runs/run_layout.hpp"
+#include "record/runs/run_variables.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -21,7 +21,7 @@ void require(bool truth, const char* what) {
   if (!truth) throw std::invalid_argument(std::string("write_pulse: ") + what);
 }
 
-void check(const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots, const Fields& fields) {
+void check(const RunMetadata& metadata, const std::vector<Snapshot>& snapshots, const Fields& fields) {
   const auto& edges = metadata.x_edges;
   require(edges.size() >= 2, "x_edges has no cell");
   for (std::size_t i = 0; i < edges.size(); ++i)
@@ -56,7 +56,7 @@ std::size_t bytes_of(const std::vector<Array>& arrays) {
 
 }  // namespace
 
-void write_run(const std::string& path, const PulseMetadata& metadata, const std::vector<Array>& arrays,
+void write_run(const std::string& path, const RunMetadata& metadata, const std::vector<Array>& arrays,
                const std::string& state, bool finished, const std::string& checksum) {
   const bool on_line = !checksum.empty();
   const std::string& scenario = metadata.scenario_text;
@@ -84,7 +84,7 @@ std::vector<std::string> pulse_variables() {
   return names;
 }
 
-void write_pulse(const std::string& path, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots,
+void write_pulse(const std::string& path, const RunMetadata& metadata, const std::vector<Snapshot>& snapshots,
                  const std::string& solver_state, bool finished) {
   const Fields fields = chosen_fields(metadata.variables);
   check(metadata, snapshots, fields);
