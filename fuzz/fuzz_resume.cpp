@@ -16,8 +16,8 @@
 #include "record/events/event_file.hpp"
 #include "record/files/seal.hpp"
 #include "record/netcdf/netcdf.hpp"
-#include "record/pulses/pulse_file.hpp"
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/run_file.hpp"
+#include "record/runs/run_variables.hpp"
 #include "slipfront/error.hpp"
 
 namespace {

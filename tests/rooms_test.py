@@ -40,7 +40,7 @@ FOLDERS = {
     "catalogue": {"csv": ".", "fsp": ".", "json": ".", "toml": "."},
     "finite_fault": {"source": "."},
     "inference": {"sampling": ""},
-    "record": {"files": "", "netcdf": "files", "pulses": "netcdf files", "events": "pulses netcdf files", "faults": "netcdf files", "planes": "pulses netcdf files"},
+    "record": {"files": "", "netcdf": "files", "runs": "netcdf files", "events": "runs netcdf files", "faults": "netcdf files"},
     "foundation": {"math": "text", "simd": "", "text": ""},
     "friction": {"state": "", "train_means": "", "laws": "state train_means"},
     "chain": {

@@ -1,105 +1,57 @@
 #include <memory>
 #include <optional>
-#include <utility>
 
-#include "batch.hpp"
 #include "foundation/ranks.hpp"
 #include "long_run.hpp"
+#include "record/files/text_file.hpp"
 #include "run/fault_plane.hpp"
-#include "run/plane.hpp"
 #include "slipfront/plane/solvers.hpp"
-#include "slipfront/scenario/problem.hpp"
-#include "terminal_table.hpp"
 
 namespace {
 
 using namespace slipfront;
 
-/// The lines that a run would follow, in words. Refuses what a run refuses at its start.
-std::string solver_in_words(const scenario::Scenario& s, scenario::Lines lines, int threads, const Ranks* ranks) {
-  if (lines == scenario::Lines::direct) {
-    const plane::DirectOptions options{.scale = scenario::scale_of_lines(s), .threads = threads};
-    scenario::plane_solver(s, lines, threads, ranks);
-    return fmt::format("every dislocation line at scale {}, which needs about {:.2g} GB of memory,", options.scale,
-                       plane::memory_of_direct(s.plane->problem, options) / 1e9);
+/// The lines that a run follows, in words.
+std::string lines_in_words(const scenario::Scenario& s, scenario::SolverKind solver) {
+  if (solver == scenario::SolverKind::plane_direct) {
+    const double scale = scenario::scale_of_lines(s);
+    return fmt::format("every dislocation line at scale {}, which needs about {:.2g} GB of memory,", scale,
+                       plane::memory_of_direct(s.plane->problem, {.scale = scale}) / 1e9);
   }
-  scenario::plane_solver(s, lines, threads);
   if (s.plane->on_grid) return fmt::format("the mean slip in {} cells along x", s.plane->cells);
   return fmt::format("{} x {} cells of dislocation lines", s.plane->loops, s.plane->angles);
 }
 
-void describe(const scenario::Scenario& s, const run::PlanePlan& plan, const std::string& solver) {
-  const record::PlaneGrid& grid = plan.grid;
-  put(fitted(fmt::format(
-      "{}: OK. This scenario would follow {} over x = {} ... {}, y = {} ... {} to t = {}, with results in "
-      "{} x {} cells at {} times: {:.1g} GB on the disk with -o.",
-      s.title.empty() ? s.file : s.title, solver, s.in_results(grid.left, "b / A"), s.in_results(grid.right, "b / A"),
-      s.in_results(grid.bottom, "b / A"), s.in_results(grid.top, "b / A"), s.in_results(s.end, "b / (c A)"), grid.nx,
-      grid.ny, plan.schedule.times.size(), plan.disk / 1e9)));
+std::string plane_in_words(const run::Plan& plan, output::Run&) {
+  const scenario::Scenario& s = plan.scenario;
+  const plane::Problem& p = s.plane->problem;
+  const double ratio = s.plane->wave_speed_ratio;
+  return fmt::format(
+      "follow {} over x = {} ... {}, y = {} ... {} to t = {}, with results in {} x {} cells at {} times: {:.1g} GB on "
+      "the disk with -o",
+      lines_in_words(s, plan.solver), s.in_results(p.left, "b / A"), s.in_results(p.right, "b / A"),
+      s.in_results(ratio * p.bottom, "b / A"), s.in_results(ratio * p.top, "b / A"), s.in_results(s.end, "b / (c A)"),
+      plan.on_plane.nx, plan.on_plane.ny, plan.times().size(), plan.need.disk / 1e9);
 }
 
-/// Prints the results, and those of the finite-fault model with which they are compared, if any.
-void print_plane(const scenario::Scenario& s, const run::PlaneResult& result, const run::PlaneNumbers& errors,
-                 const run::FaultOnPlane* model, const ScenarioArguments& a) {
-  std::vector<run::Row> rows = rows_of(result, errors);
-  if (model)
-    for (run::Row& row : run::compare_with_model(*model, s, result)) rows.push_back(std::move(row));
-  print_summary(s, std::move(rows), result.metadata.warnings, a);
-}
-
-/// Errors of a run that processes share, and of one that a finite-fault model gives, are not estimated.
-run::PlaneNumbers errors_of(const scenario::Scenario& s, const run::PlaneResult& result, scenario::Lines lines,
-                            bool estimated, int threads) {
-  if (!estimated) return run::unknown_errors(result.numbers);
-  return run::plane_errors(s, result.numbers, {}, lines, threads);
-}
-
-bool is_model(const ScenarioArguments& a) { return a.scenario.ends_with(".fsp"); }
-
-/// Runs a scenario. If it was made from a finite-fault model, it compares the results with the model.
-int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, scenario::Lines lines,
-                 const run::FaultOnPlane* model, Clock::time_point begun) {
-  const Ranks* const ranks = lines == scenario::Lines::direct && the_ranks->size() > 1 ? the_ranks : nullptr;
-  if (!ranks && the_ranks->rank() > 0) return exit_done;  // the averages are those of one process
-  run::PlanePlan plan;
-  std::optional<record::Checkpoint> saved;
-  const auto prepare = [&] {
-    plan = run::plan_plane(s, lines);
-    if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, s, plan);
-    if (a.check) require_output(a, saved && saved->finished, plan.disk);
-  };
-  ranks ? ranks->together(prepare) : prepare();
-  if (a.check) {
-    const std::string solver = solver_in_words(s, lines, a.common.threads, ranks);
-    if (the_ranks->rank() == 0) describe(s, plan, solver);
-    return exit_done;
-  }
-  LongRun long_run(a, s, saved && saved->finished, ranks);
-  const auto result = run::plane(s, plan, long_run.options(std::move(saved), begun));
-  if (const int code = long_run.end(result.finished()); code != exit_done) return code;
-  const bool estimated = !ranks && !model;
-  if (the_ranks->rank() == 0)
-    print_plane(s, result, errors_of(s, result, lines, estimated, a.common.threads), model, a);
-  return exit_done;
-}
-
-int run_plane(const ScenarioArguments& a, scenario::Lines lines) {
-  const auto begun = Clock::now();
-  scenario::Scenario s;
-  std::optional<run::FaultOnPlane> model;
-  the_ranks->together([&] {  // so that an error is reported only once
-    if (!is_model(a)) {
-      s = read_scenario_of(a);
-      return;
-    }
-    require_one_scenario(a);
-    model = run::fault_on_plane(record::read_text(a.scenario), a.scenario);
-    s = prepared(run::scenario_of_fault(*model, a.scenario, settings_of(a)), a);
-  });
-  the_ranks->require_same("SCENARIO", s.text);
-  if (!model) return run_scenario(a, s, lines, nullptr, begun);
+/// The plan of a run that follows a finite-fault model.
+run::Plan plan_of_model(const ScenarioArguments& a) {
+  require_one_scenario(a);
+  const auto model =
+      std::make_shared<const run::FaultOnPlane>(run::fault_on_plane(record::read_text(a.scenario), a.scenario));
+  const scenario::Scenario s = prepared(run::scenario_of_fault(*model, a.scenario, settings_of(a)), a);
   if (!model->fault.note.empty() && !a.common.quiet) complain("warning: " + model->fault.note);
-  return run_scenario(a, s, scenario::Lines::direct, &*model, begun);
+  run::Plan plan = run::plan_of(scenario::SolverKind::plane_direct, s);
+  plan.model = model;
+  return plan;
+}
+
+int run_plane(const ScenarioArguments& a, bool direct) {
+  const auto make_plan = [&] {
+    if (a.scenario.ends_with(".fsp")) return plan_of_model(a);
+    return run::plan_of(direct ? scenario::SolverKind::plane_direct : scenario::SolverKind::plane, read_scenario_of(a));
+  };
+  return plan_and_run(a, Clock::now(), make_plan, plane_in_words);
 }
 
 }  // namespace
@@ -117,5 +69,5 @@ Runner add_plane(CommandLine& program) {
   command.flag(
       "--direct", *direct,
       "Follow every dislocation line, as a finite-fault model always does; chain.scale sets how many there are");
-  return [a, direct] { return run_plane(*a, *direct ? scenario::Lines::direct : scenario::Lines::averaged); };
+  return [a, direct] { return run_plane(*a, *direct); };
 }

@@ -2,18 +2,10 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "batch.hpp"
-#include "foundation/step_budget.hpp"
+#include "interrupts.hpp"
 #include "long_run.hpp"
-#include "record/files/unfinished.hpp"
 #include "run/errors.hpp"
-#include "run/run.hpp"
-#include "slipfront/pulse/run.hpp"
-#include "slipfront/scenario/problem.hpp"
-#include "terminal_table.hpp"
 
 namespace {
 
@@ -27,7 +19,7 @@ double two_digits(double value) {
 
 /// About how many steps the run takes and how long, from the time of its first steps. Empty where many cells would make
 /// these long. The estimate of errors takes another third. \throws NumericsError if the first steps fail.
-std::string duration_of(const pulse::Problem& problem, pulse::Run& run) {
+std::string duration_of(const pulse::Problem& problem, output::Run& run) {
   constexpr int most_cells = 100000;
   constexpr long enough_steps = 20;
   constexpr double enough_seconds = 0.2, with_errors = 4.0 / 3;
@@ -35,42 +27,28 @@ std::string duration_of(const pulse::Problem& problem, pulse::Run& run) {
   long steps = 0;
   const auto begun = Clock::now();
   run.go([&] { return ++steps == enough_steps || seconds_since(begun) > enough_seconds; });
-  const double expected = run.budget().expected(), each = seconds_since(begun) / static_cast<double>(steps);
+  const double expected = run.expected_steps(), each = seconds_since(begun) / static_cast<double>(steps);
   return fmt::format(", about {:.0f} steps and {:.2g} s", two_digits(expected), with_errors * expected * each);
 }
 
-void describe(const scenario::Scenario& s, const run::PulsePlan& plan, pulse::Run& run) {
-  const pulse::Problem& problem = plan.problem;
-  put(fitted(fmt::format(
-      "{}: OK. This scenario would run {} cells over x = {} ... {} to t = {}, {} (closure {}), {}{}.",
-      s.title.empty() ? s.file : s.title, problem.cells, s.in_results(problem.left, "b / A"),
-      s.in_results(problem.right, "b / A"), s.in_results(s.end, "b / (c A)"), parameters_in_words(s.friction),
-      name_of(s.friction.closure()), in_words(plan.need), duration_of(problem, run))));
+std::string pulse_in_words(const run::Plan& plan, output::Run& run) {
+  const scenario::Scenario& s = plan.scenario;
+  const pulse::Problem& problem = plan.pulse;
+  return fmt::format("run {} cells over x = {} ... {} to t = {}, {} (closure {}), {}{}", problem.cells,
+                     s.in_results(problem.left, "b / A"), s.in_results(problem.right, "b / A"),
+                     s.in_results(s.end, "b / (c A)"), parameters_in_words(s.friction), name_of(s.friction.closure()),
+                     in_words(plan.need), duration_of(problem, run));
 }
 
 int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
-  const auto begun = Clock::now();
-  if (tolerance) {
-    const int cells = run::cells_for(*tolerance, !a.resume.empty(), read_scenario_of(a), interrupted_by_user);
-    a.set.push_back(fmt::format("pulse.cells={}", cells));
-  }
-  const scenario::Scenario s = read_scenario_of(a);
-  const run::PulsePlan plan = run::plan_pulse(s);
-  std::optional<record::Checkpoint> saved;
-  if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, s, plan);
-  if (a.check) {
-    require_output(a, saved && saved->finished, plan.need.disk);
-    describe(s, plan, *run::begin(plan, {.checkpoint = std::move(saved)}));
-    return exit_done;
-  }
-  LongRun long_run(a, s, saved && saved->finished, nullptr);
-  auto result = run::pulse(s, plan, long_run.options(std::move(saved), begun));
-  if (const int code = long_run.end(result.finished()); code != exit_done) return code;
-  const std::vector<std::string> unresolved = run::add_errors(result, s, {});
-  std::vector<std::string> warnings = result.metadata.warnings;
-  warnings.insert(warnings.end(), unresolved.begin(), unresolved.end());
-  print_summary(s, result.summary, warnings, a);
-  return exit_done;
+  const auto make_plan = [&] {
+    if (tolerance) {
+      const int cells = run::cells_for(*tolerance, !a.resume.empty(), read_scenario_of(a), interrupted_by_user);
+      a.set.push_back(fmt::format("pulse.cells={}", cells));
+    }
+    return run::plan_of(scenario::SolverKind::pulse, read_scenario_of(a));
+  };
+  return plan_and_run(a, Clock::now(), make_plan, pulse_in_words);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ std::optional<double> unit_in_si(const scenario::Scenario& s, std::string_view s
 std::string cost_of(const scenario::Scenario& s) {
   if (s.plane) return "a rupture on a plane: slipfront plane --check";
   try {
-    const run::ChainPlan plan = run::plan_chain(s);
+    const run::Plan plan = run::plan_of(scenario::SolverKind::chain, s);
     const chain::Problem p = chain::problem_of(plan.chain);
     return fmt::format("a chain of {} sites, {}", p.grid.sites, scenario::in_words(plan.need));
   } catch (const InputError& error) {

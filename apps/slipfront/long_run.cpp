@@ -4,10 +4,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "batch.hpp"
+#include "interrupts.hpp"
 #include "json.hpp"
+#include "record/files/text_file.hpp"
 #include "record/files/unfinished.hpp"
 #include "run/tables.hpp"
 #include "terminal_table.hpp"
@@ -261,20 +265,8 @@ void put_rows(const std::vector<run::Row>& rows) {
                2));
 }
 
-}  // namespace
-
-std::string parameters_in_words(const friction::Friction& friction) {
-  std::string text;
-  for (const friction::Parameter& p : friction.definition().parameters) {
-    const double value = friction.parameter(p.name);
-    if (value == 0 && p.value == 0 && p.words.empty() && !text.empty()) continue;  // it has no effect
-    const std::string words =
-        p.words.empty() ? fmt::format("{:.6g}", value) : std::string(p.words.at(static_cast<std::size_t>(value)));
-    text += fmt::format("{}{} = {}", text.empty() ? " with " : ", ", p.name, words);
-  }
-  return fmt::format("{} friction{}", friction.definition().adjective, text);
-}
-
+/// Prints the summary of a run as a table or as one JSON object on stdout. Warnings that were not printed before go to
+/// stderr. `events` are those of a loaded chain, else null.
 void print_summary(const scenario::Scenario& scenario, std::vector<run::Row> summary,
                    const std::vector<std::string>& warnings, const ScenarioArguments& a,
                    const std::vector<output::SlipEvent>* events) {
@@ -294,45 +286,81 @@ void print_summary(const scenario::Scenario& scenario, std::vector<run::Row> sum
   if (!output.empty() && !a.common.quiet) put(fitted("written to " + output));
 }
 
-void require_output(const ScenarioArguments& arguments, bool of_finished, double bytes) {
-  record::require_disk_space(run::output_of(arguments.output, arguments.resume, of_finished).finished(), bytes);
+/// Carries out a plan and shows its progress. Meanwhile Ctrl-C interrupts the run.
+run::Result with_progress(const ScenarioArguments& a, const run::Plan& plan, run::Options options) {
+  const bool first = the_ranks->rank() == 0;
+  const record::Output& output = options.output;
+  if (output.wanted())
+    interrupted_means("; the last checkpoint is saved: continue with " + output.how_to_resume(), output.unfinished());
+  const WatchInterrupts watch(!first);
+  std::optional<Progress> progress;
+  options.after_step = [&](double time, long steps) {
+    if (!progress) {
+      progress.emplace(plan.scenario.end, first && !a.common.quiet, std::string(), progress_words(plan.scenario));
+      progress->from(time, steps);
+    }
+    progress->at(time, steps);
+    return interrupted_by_user();
+  };
+  return run::carry_out(plan, options);
 }
 
-LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario, bool of_finished,
-                 const Ranks* ranks)
-    : a_(arguments), s_(scenario), ranks_(ranks), first_(the_ranks->rank() == 0) {
-  const auto open = [&] { output_ = run::output_of(a_.output, a_.resume, of_finished); };
-  ranks_ ? ranks_->together(open) : open();
-  if (output_.wanted())
-    interrupted_means("; the last checkpoint is saved: continue with " + output_.how_to_resume(), output_.unfinished());
-  watch_.emplace(!first_);
+/// Whether processes can share a run of this solver.
+bool is_shared(scenario::SolverKind solver) {
+  return solver == scenario::SolverKind::chain || solver == scenario::SolverKind::plane_direct;
 }
 
-run::Options LongRun::options(std::optional<record::Checkpoint> checkpoint, Clock::time_point begun) {
-  return {.output = output_,
-          .checkpoint = std::move(checkpoint),
-          .threads = a_.common.threads,
-          .ranks = ranks_,
-          .after_step =
-              [this](double time, long steps) {
-                if (!progress_) {
-                  progress_.emplace(s_.end, first_ && !a_.common.quiet, std::string(), progress_words(s_));
-                  progress_->from(time, steps);
-                }
-                time_ = time;
-                progress_->at(time, steps);
-                return interrupted_by_user();
-              },
-          .begun = begun};
+}  // namespace
+
+std::string parameters_in_words(const friction::Friction& friction) {
+  std::string text;
+  for (const friction::Parameter& p : friction.definition().parameters) {
+    const double value = friction.parameter(p.name);
+    if (value == 0 && p.value == 0 && p.words.empty() && !text.empty()) continue;  // it has no effect
+    const std::string words =
+        p.words.empty() ? fmt::format("{:.6g}", value) : std::string(p.words.at(static_cast<std::size_t>(value)));
+    text += fmt::format("{}{} = {}", text.empty() ? " with " : ", ", p.name, words);
+  }
+  return fmt::format("{} friction{}", friction.definition().adjective, text);
 }
 
-int LongRun::end(bool finished) {
-  progress_.reset();
-  watch_.reset();
-  if (finished) return exit_done;
-  if (first_)
-    complain(output_.wanted() ? fmt::format("interrupted at t = {}; continue with {}",
-                                            s_.in_results(time_, "b / (c A)"), output_.how_to_resume())
-                              : "interrupted; there is no checkpoint, because -o was not given");
-  return exit_interrupted;
+int plan_and_run(const ScenarioArguments& a, Clock::time_point begun, const std::function<run::Plan()>& make_plan,
+                 const std::function<std::string(const run::Plan&, output::Run&)>& in_words) {
+  run::Plan plan;
+  the_ranks->together([&] { plan = make_plan(); });  // so that an error is reported only once
+  const scenario::Scenario& s = plan.scenario;
+  the_ranks->require_same("SCENARIO", s.text);
+  const Ranks* const ranks = is_shared(plan.solver) && the_ranks->size() > 1 ? the_ranks : nullptr;
+  if (!ranks && the_ranks->rank() > 0) return exit_done;
+  run::Options options{.threads = a.common.threads, .ranks = ranks, .begun = begun};
+  const auto prepare = [&] {
+    if (!a.resume.empty()) options.checkpoint = run::checkpoint_of(a.resume, plan);
+    options.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
+    if (a.check) record::require_disk_space(options.output.finished(), plan.need.disk);
+  };
+  ranks ? ranks->together(prepare) : prepare();
+  if (ranks) ranks->require_same("--resume", options.checkpoint ? options.checkpoint->solver_state : "");
+  const bool first = the_ranks->rank() == 0;
+  if (a.check) {
+    const run::Result start = run::begin(plan, options);
+    if (first)
+      put(fitted(fmt::format("{}: OK. This scenario would {}.", s.title.empty() ? s.file : s.title,
+                             in_words(plan, *start.run))));
+    return exit_done;
+  }
+  run::Result result = with_progress(a, plan, options);
+  if (!result.finished()) {
+    const std::string how = options.output.wanted() ? fmt::format("interrupted at t = {}; continue with {}",
+                                                                  s.in_results(result.run->time(), "b / (c A)"),
+                                                                  options.output.how_to_resume())
+                                                    : "interrupted; there is no checkpoint, because -o was not given";
+    if (first) complain(how);
+    return exit_interrupted;
+  }
+  std::vector<std::string> warnings = result.metadata.warnings;
+  if (result.add_errors)
+    for (std::string& warning : result.add_errors(result.summary, {})) warnings.push_back(std::move(warning));
+  const bool has_events = plan.solver == scenario::SolverKind::chain && s.loading.acts();
+  if (first) print_summary(s, result.summary, warnings, a, has_events ? &result.metadata.events : nullptr);
+  return exit_done;
 }

@@ -2,17 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
 #include "foundation/ranks.hpp"
-#include "interrupts.hpp"
 #include "progress.hpp"
-#include "record/files/text_file.hpp"
 #include "run/run.hpp"
-#include "run/summary.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 /// Arguments of the subcommands that run a scenario.
@@ -43,38 +40,9 @@ ProgressWords progress_words(const slipfront::scenario::Scenario& scenario);
 
 /// The law of friction with its parameters: "slip-weakening friction with strength = 0.08, residual = 0.02".
 std::string parameters_in_words(const slipfront::friction::Friction& friction);
-/// Prints the summary of a run, with its errors, as a table or as one JSON object on stdout. `summary` is in the units
-/// of the model. `warnings`, one sentence each, are in the JSON. Those that `read_scenario_of` has not printed go to
-/// stderr. `events` are those of a loaded chain, else null.
-void print_summary(const slipfront::scenario::Scenario& scenario, std::vector<slipfront::run::Row> summary,
-                   const std::vector<std::string>& warnings, const ScenarioArguments& arguments,
-                   const std::vector<slipfront::output::SlipEvent>* events = nullptr);
-
-/// Checks that the output of a run can be written, of about `bytes` bytes. `of_finished`: the run continues
-/// that of a finished file. \throws FileError.
-void require_output(const ScenarioArguments& arguments, bool of_finished, double bytes);
-
-/// The progress line and the output file of a `pulse` or `chain` run. While this object exists, Ctrl-C interrupts the
-/// run.
-class LongRun {
- public:
-  /// `of_finished`: the run continues that of a finished file. `ranks` are the processes that share the run; null if
-  /// there is only this one.
-  LongRun(const ScenarioArguments& arguments, const slipfront::scenario::Scenario& scenario, bool of_finished,
-          const slipfront::Ranks* ranks);
-  /// Options of the run: its output, the checkpoint to resume from, if any, and the time `begun` when the command
-  /// began.
-  slipfront::run::Options options(std::optional<slipfront::record::Checkpoint> checkpoint, Clock::time_point begun);
-  /// Ends the run. If it was interrupted, prints at which time. Returns the exit code.
-  int end(bool finished);
-
- private:
-  const ScenarioArguments& a_;
-  const slipfront::scenario::Scenario& s_;
-  const slipfront::Ranks* ranks_;
-  bool first_;
-  slipfront::record::Output output_;
-  std::optional<WatchInterrupts> watch_;
-  std::optional<Progress> progress_;
-  double time_ = 0;
-};
+/// Plans a run, and carries it out or, with --check, prints `in_words`: what the scenario "would ...". The processes of
+/// mpirun share the run if its solver follows every dislocation. `begun` is the time when the command began. Returns
+/// the exit code.
+int plan_and_run(const ScenarioArguments& arguments, Clock::time_point begun,
+                 const std::function<slipfront::run::Plan()>& make_plan,
+                 const std::function<std::string(const slipfront::run::Plan&, slipfront::output::Run&)>& in_words);

@@ -7,7 +7,7 @@
 
 #include "foundation/math/constants.hpp"
 #include "record/files/unfinished.hpp"
-#include "record/pulses/comparison_file.hpp"
+#include "record/runs/comparison_file.hpp"
 #include "results.hpp"
 #include "run/run.hpp"
 #include "scenario/estimate.hpp"
@@ -63,7 +63,7 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   Watch watch(a.progress, s.end);
   std::vector<Level> levels;
   run::Comparison comparison;
-  record::PulseMetadata metadata;
+  record::RunMetadata metadata;
   bool reached = false;
   {
     const py::gil_scoped_release others_may_run;

@@ -1,7 +1,7 @@
 #include <string>
 
 #include "bindings.hpp"
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/run_variables.hpp"
 
 PYBIND11_MODULE(_slipfront, m) {
   m.attr("__version__") = SLIPFRONT_VERSION;
@@ -14,9 +14,7 @@ PYBIND11_MODULE(_slipfront, m) {
   bind_friction_ratio(m);
   bind_medium(m);
   bind_measured(m);
-  bind_pulse(m);
-  bind_chain(m);
-  bind_plane(m);
+  bind_runs(m);
   bind_compare(m);
   bind_event(m);
   bind_observations(m);

@@ -9,7 +9,7 @@
 
 #include "record/files/text_file.hpp"
 #include "record/files/unfinished.hpp"
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/run_variables.hpp"
 #include "run/tables.hpp"
 
 using namespace slipfront;
@@ -52,7 +52,7 @@ scenario::Scenario scenario_of(const RunRequest& request) {
 
 namespace {
 
-py::dict attributes_of(const record::PulseMetadata& metadata, const std::string& format, bool finished) {
+py::dict attributes_of(const record::RunMetadata& metadata, const std::string& format, bool finished) {
   py::dict attributes;
   for (const auto& [name, value] : record::file_attributes(metadata, format))
     attributes[py::str(name)] = py::str(py::bytes(value).attr("decode")("utf-8", "replace"));
@@ -62,7 +62,7 @@ py::dict attributes_of(const record::PulseMetadata& metadata, const std::string&
 
 }  // namespace
 
-py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& format, bool finished,
+py::dict dataset_of(const record::RunMetadata& metadata, const std::string& format, bool finished,
                     const std::vector<record::Array>& arrays) {
   py::list variables;
   py::dict units;

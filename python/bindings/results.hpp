@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "record/pulses/arrays.hpp"
-#include "record/pulses/pulse_file.hpp"
+#include "foundation/clock.hpp"
+#include "record/runs/arrays.hpp"
+#include "record/runs/run_file.hpp"
 #include "run/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
@@ -19,6 +20,7 @@ struct RunRequest {
   std::string output, resume;    ///< names of files; empty if there is none
   std::optional<bool> si;        ///< whether results are in SI units; by default as in the scenario
   py::object progress;
+  slipfront::Clock::time_point begun = slipfront::Clock::now();
 };
 RunRequest request_of(const py::dict& arguments);
 
@@ -30,21 +32,10 @@ py::object time_unit_of(const slipfront::scenario::Scenario& scenario);
 /// Returns a dict {attributes, variables, warnings, units} for the Python part. Each variable is a tuple of
 /// description, dimensions, array and further attributes. The warnings are those of the metadata. The arrays are in the
 /// units of the model. If results are to be in SI units, `units` has the value of each of them.
-py::dict dataset_of(const slipfront::record::PulseMetadata& metadata, const std::string& format, bool finished,
+py::dict dataset_of(const slipfront::record::RunMetadata& metadata, const std::string& format, bool finished,
                     const std::vector<slipfront::record::Array>& arrays);
 
 /// Adds `summary`, {name: value} of each row, and `errors`, {name: error} of each row whose error is known. They are in
 /// SI units if there are `units`.
 void add_rows(py::dict& data, std::vector<slipfront::run::Row> rows,
               const std::optional<slipfront::medium::SiUnits>& units);
-
-/// Returns the dict of a run of pulse or chain, with its summary.
-template <class Run>
-py::dict dataset_of(const slipfront::run::Result<Run>& result) {
-  const std::vector<slipfront::output::Snapshot>& snapshots = result.run->snapshots();
-  py::dict data = dataset_of(
-      result.metadata, slipfront::record::pulse_format, result.finished(),
-      slipfront::record::arrays_of(result.metadata, slipfront::record::times_of(snapshots), {&snapshots}, false));
-  add_rows(data, result.summary, result.metadata.units);
-  return data;
-}

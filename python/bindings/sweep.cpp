@@ -152,14 +152,10 @@ class Sweep {
     scenario::Scenario s = scenario::read_scenario(text_, file_, points_[point], run::read_table);
     run::choose_units(s, si_);
     const run::Options options{.after_step = [this](double, long) { return stopped_.load(); }};
-    if (command_ == "chain") {
-      const run::ChainPlan plan = run::plan_chain(s);
-      const auto share = memory_.take(plan.need.memory, stopped_);
-      return numbers(run::chain(s, plan, options).summary, variables_, s.results_in);
-    }
-    const run::PulsePlan plan = run::plan_pulse(s);
+    const run::Plan plan =
+        run::plan_of(command_ == "chain" ? scenario::SolverKind::chain : scenario::SolverKind::pulse, std::move(s));
     const auto share = memory_.take(plan.need.memory, stopped_);
-    return numbers(run::pulse(s, plan, options).summary, variables_, s.results_in);
+    return numbers(run::carry_out(plan, options).summary, variables_, plan.scenario.results_in);
   }
 
   std::string command_, text_, file_;

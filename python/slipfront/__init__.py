@@ -48,11 +48,10 @@ from ._friction_ratio import damping_number, friction_ratio
 from ._fronts import fronts
 from ._laboratory import laboratory
 from ._hierarchy import population
-from ._plane import plane
 from ._potency import moment_duration
 from ._relations import relations
 from ._riemann import riemann
-from ._run import chain, check, compare, open, pulse
+from ._run import chain, check, compare, open, plane, pulse
 from ._sweep import sweep
 from ._shown import shortened
 from ._slipfront import FileError, InputError, NumericsError, __version__

@@ -50,8 +50,6 @@ void Run::archive(Archive& a) {
   a.require(!dt || static_cast<double>(chain_->steps()) < schedule_.times.back() * scale_ / *dt + 1);
 }
 
-std::string Run::saved() const { return slipfront::saved(*this); }
-
 const std::vector<Snapshot>& Run::snapshots() const { return outputs_->all(); }
 bool Run::finished() const { return outputs_->scheduled() == schedule_.times.size(); }
 double Run::window() const { return observer_->window(); }

@@ -192,8 +192,6 @@ std::vector<std::string> Run::warnings() const {
   return all;
 }
 
-std::string Run::saved() const { return slipfront::saved(*this); }
-
 void Run::Seen::archive(Archive& a) {
   a(rows_on_time, series);
   a.fixed(rupture_time, peak_slip_velocity, velocity_squared, last_slip);

@@ -17,7 +17,7 @@ namespace slipfront::pulse {
 namespace {
 
 /// Expected number of steps. Each output time adds two, because a step must end on it and the step before is shortened.
-double expected_steps(const Motion& start, const output::Schedule& schedule) {
+double steps_to_end(const Motion& start, const output::Schedule& schedule) {
   return start.expected_steps(schedule.times.back()) + 2 * static_cast<double>(schedule.times.size());
 }
 
@@ -84,7 +84,7 @@ struct Run::Parts {
   Parts(Problem problem, output::Schedule given)
       : schedule(std::move(given)),
         motion(std::move(problem)),
-        budget(expected_steps(*motion, schedule), schedule.times.back()) {}
+        budget(steps_to_end(*motion, schedule), schedule.times.back()) {}
 
   bool finished() const { return snapshots.size() == schedule.times.size(); }
   output::Findings findings() const { return motion->findings(snapshots); }
@@ -136,11 +136,11 @@ double Run::crossing_position() const { return parts_->motion->crossing_position
 double Run::conservation_error() const { return parts_->motion->conservation_error(); }
 const output::Schedule& Run::schedule() const { return parts_->schedule; }
 const std::vector<output::Snapshot>& Run::snapshots() const { return parts_->snapshots; }
-const StepBudget& Run::budget() const { return parts_->budget; }
+double Run::expected_steps() const { return parts_->budget.expected(); }
 double Run::stepping_seconds() const { return parts_->stepping_seconds; }
 bool Run::finished() const { return parts_->finished(); }
 
-std::string Run::saved() const { return slipfront::saved(*parts_); }
+void Run::archive(Archive& a) { parts_->archive(a); }
 
 std::optional<SlipTwice> Run::slip_twice() const { return parts_->motion->slip_twice(); }
 

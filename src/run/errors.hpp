@@ -1,23 +1,14 @@
 #pragma once
 /// \file
-/// Estimates the discretisation errors of the scalars of a pulse.
+/// Estimates the errors of the numbers of a run by coarser runs.
 
-#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "run/run.hpp"
-#include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::run {
-
-/// The larger of two changes of a value: at the last doubling of the cells, and half of the one before, as for a scheme
-/// of first order. Times `safety`, it is the error of the finest (Richardson) of values that converge.
-inline double change_of(double fine, double half, double quarter) {
-  return std::fmax(std::fabs(fine - half), std::fabs(half - quarter) / 2);
-}
-inline constexpr double safety = 1.5;
 
 /// Sets the error of each row in the summary of a finished run, relative to infinitely many cells. Returns a warning
 /// for each row that the cells do not resolve. For this it makes runs with half and a quarter of
@@ -36,8 +27,16 @@ inline constexpr double safety = 1.5;
 /// An error is NaN for rows without an error of this kind. It is NaN for a front that an observer sees at an end of the
 /// domain. It is NaN, with a warning, for a value that each doubling of the cells more than doubles. It is also NaN if
 /// the run, or the run with half the cells, has no value, or if `interrupted` returned true.
-std::vector<std::string> add_errors(Result<pulse::Run>& fine, const scenario::Scenario& scenario,
-                                    const std::function<bool()>& interrupted);
+std::vector<std::string> add_pulse_errors(const pulse::Run& run, std::vector<Row>& summary,
+                                          const scenario::Scenario& scenario, const std::function<bool()>& interrupted);
+
+/// Sets the errors of the summary of a finished run by runs with half and a quarter of the cells, or of the scale of a
+/// direct run, which take a quarter of its time. An error is 1.5 times the larger of two changes: that of the last
+/// doubling, and half of that at the doubling before. There is none if a run with fewer cells fails, or if
+/// `interrupted` returned true, and for a direct run with fewer than 20 lines, whose convergence is not regular. The
+/// peak slip velocity has no error.
+void add_plane_errors(std::vector<Row>& summary, const Plan& plan, const std::function<bool()>& interrupted,
+                      int threads);
 
 /// The number of cells for a relative tolerance, 1e-9 to 1. It applies to slip, slip velocity and stress at x = 0, and
 /// to the peak slip velocity. The function doubles the cells of the scenario until the tolerance is reached. If

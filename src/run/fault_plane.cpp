@@ -170,9 +170,9 @@ scenario::Scenario scenario_of_fault(const FaultOnPlane& model, const std::strin
   scenario::Scenario s = scenario::read_scenario(text_of(model, file, *contact_ratio, unit), file, overrides, rows);
   const std::string unknown = in_pascals(unit);
   const std::size_t at = s.text.find(unknown);
-  if (at == std::string::npos) return s;                  // `overrides` give it
-  scenario::plane_solver(s, scenario::Lines::direct, 1);  // refuses what needs too much memory
-  const plane::Schedule grid = scenario::plane_schedule(s, scenario::Lines::direct);
+  if (at == std::string::npos) return s;                             // `overrides` give it
+  scenario::plane_solver(s, scenario::SolverKind::plane_direct, 1);  // refuses what needs too much memory
+  const plane::Schedule grid = scenario::plane_schedule(s, scenario::SolverKind::plane_direct);
   const double unbalanced = plane::largest_unbalanced_force(
       s.plane->problem, {.scale = scenario::scale_of_lines(s), .spacing = *s.chain.spacing}, grid.nx, grid.ny);
   const double strength = rounded(stronger * unbalanced) * unit;
@@ -182,13 +182,13 @@ scenario::Scenario scenario_of_fault(const FaultOnPlane& model, const std::strin
   return s;
 }
 
-std::vector<Row> compare_with_model(const FaultOnPlane& model, const scenario::Scenario& s, const PlaneResult& result) {
+std::vector<Row> compare_with_model(const FaultOnPlane& model, const scenario::Scenario& s, const plane::Run& run) {
   const medium::Elastic rock = medium::elastic(s.medium, {});
   const medium::Units units =
       medium::units(rock.shear_modulus, rock.speed, *s.medium.contact_ratio, *s.medium.asperity_spacing);
-  const plane::Problem& p = result.run->solver().problem();
-  const plane::MapGrid grid = plane::grid_of(p, result.run->schedule());
-  const Times times = rupture_times(model, grid, p, result.run->maps(), units);
+  const plane::Problem& p = run.solver().problem();
+  const plane::MapGrid grid = plane::grid_of(p, run.schedule());
+  const Times times = rupture_times(model, grid, p, run.maps(), units);
   const auto reached = static_cast<double>(
       std::count_if(times.plane.begin(), times.plane.end(), [](double t) { return !std::isnan(t); }));
   const std::vector<plane::SeriesRow> series = series_of(model);

@@ -7,7 +7,7 @@
 
 #include "finite_fault/on_plane.hpp"
 #include "results/evaluate.hpp"
-#include "run/plane.hpp"
+#include "run/summary.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::run {
@@ -33,6 +33,6 @@ scenario::Scenario scenario_of_fault(const FaultOnPlane& model, const std::strin
 
 /// How the run compares with the model, in SI units: rupture times, durations and corner frequencies.
 std::vector<Row> compare_with_model(const FaultOnPlane& model, const scenario::Scenario& scenario,
-                                    const PlaneResult& result);
+                                    const plane::Run& run);
 
 }  // namespace slipfront::run

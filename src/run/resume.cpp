@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "foundation/text/digits.hpp"
-#include "run/plane.hpp"
 #include "run/run.hpp"
 #include "run/tables.hpp"
 #include "slipfront/chain/problem.hpp"
@@ -22,14 +21,6 @@ struct Continued {
 
   [[noreturn]] void refuse(const std::string& key, const std::string& problem, const std::string& allowed) const {
     throw InputError({.file = path, .key = key, .problem = problem, .allowed = allowed});
-  }
-  /// Refuses because `what` follows from time.end, which the run has used from its start.
-  [[noreturn]] void refuse_choice(const std::string& what, const std::string& of_file, const std::string& of_now,
-                                  const std::string& remedy) const {
-    refuse("resume",
-           what + " follows from time.end: " + of_file + " with end " + shortest(begun.end) + " of the file, " +
-               of_now + " with end " + shortest(now.end),
-           remedy);
   }
 };
 
@@ -54,32 +45,45 @@ void require_later_end(const Continued& c) {
              "time.end >= " + shortest(c.begun.end));
 }
 
-void require_same_domain(const Continued& c, double left, double right, double left_now, double right_now) {
-  if (left == left_now && right == right_now) return;
-  const auto range = [](double from, double to) { return "x = " + digits(from) + " ... " + digits(to); };
-  c.refuse_choice("the domain", range(left, right), range(left_now, right_now),
-                  "a new run with domain.left and domain.right, which can be continued");
+/// Something that follows from time.end, and that a run uses from its start.
+struct Choice {
+  std::string what;
+  std::vector<double> values;
+  std::string in_words, remedy;
+};
+
+Choice domain(double left, double right) {
+  return {"the domain",
+          {left, right},
+          "x = " + digits(left) + " ... " + digits(right),
+          "a new run with domain.left and domain.right, which can be continued"};
 }
 
-void require_same_problem(const Continued& c, const PulsePlan& begun, const PulsePlan& now) {
-  const pulse::Problem &a = begun.problem, &b = now.problem;
-  require_same_domain(c, a.left, a.right, b.left, b.right);
-  if (a.longest_step != b.longest_step)
-    c.refuse_choice("the longest step under a forcing", digits(a.longest_step), digits(b.longest_step), "a new run");
+Choice number(const char* what, double value, const char* remedy) { return {what, {value}, digits(value), remedy}; }
+
+std::vector<Choice> choices_of(const Plan& plan) {
+  const char* const a_new_run = "a new run";
+  if (plan.is_on_plane()) return {number("the time between two rows of the series", plan.on_plane.interval, a_new_run)};
+  if (plan.solver == scenario::SolverKind::pulse)
+    return {domain(plan.pulse.left, plan.pulse.right),
+            number("the longest step under a forcing", plan.pulse.longest_step, a_new_run)};
+  std::vector<Choice> choices = {domain(plan.chain.left, plan.chain.right),
+                                 number("the spacing of sites, as contacts age,", plan.chain.spacing,
+                                        "a new run with chain.spacing, which can be continued")};
+  const chain::Problem chain = chain::problem_of(plan.chain, plan.share_of_machine);
+  if (!chain.implicit)
+    choices.push_back(
+        number("the time step", chain::chosen_step(chain), "a new run, or chain.steps = \"implicit\" in one"));
+  return choices;
 }
 
-/// Compares the chains at a later end with those that began, which were planned with the same share of the machine.
-void require_same_problem(const Continued& c, const ChainPlan& begun, const ChainPlan& now, double share_of_machine) {
-  require_same_domain(c, begun.chain.left, begun.chain.right, now.chain.left, now.chain.right);
-  if (begun.chain.spacing != now.chain.spacing)
-    c.refuse_choice("the spacing of sites, as contacts age,", digits(begun.chain.spacing), digits(now.chain.spacing),
-                    "a new run with chain.spacing, which can be continued");
-  const chain::Problem a = chain::problem_of(begun.chain, share_of_machine);
-  const chain::Problem b = chain::problem_of(now.chain, share_of_machine);
-  if (a.implicit) return;
-  const double step = chain::chosen_step(a), step_now = chain::chosen_step(b);
-  if (step != step_now)
-    c.refuse_choice("the time step", digits(step), digits(step_now), "a new run, or chain.steps = \"implicit\" in one");
+void require_same_choices(const Continued& c, const std::vector<Choice>& begun, const std::vector<Choice>& now) {
+  for (std::size_t i = 0; i < std::min(begun.size(), now.size()); ++i)
+    if (begun[i].values != now[i].values)
+      c.refuse("resume",
+               begun[i].what + " follows from time.end: " + begun[i].in_words + " with end " + shortest(c.begun.end) +
+                   " of the file, " + now[i].in_words + " with end " + shortest(c.now.end),
+               begun[i].remedy);
 }
 
 /// Refuses other output times before the end of the file. Returns whether the end of the file is still an output time.
@@ -102,11 +106,16 @@ void keep_common_snapshots(bool still_output, double end, Snapshots& snapshots) 
   if (!snapshots.empty() && snapshots.back().time == end && !still_output) snapshots.pop_back();
 }
 
-/// `same_problem` refuses a plan of the later end that differs from that of the file in more than the end.
-template <class Plan, class PlanOf, class SameProblem>
-record::Checkpoint read(const std::string& path, const std::string& format, const scenario::Scenario& scenario,
-                        const Plan& plan, const PlanOf& plan_of, const SameProblem& same_problem) {
-  record::Checkpoint saved = record::read_checkpoint(path, format);
+}  // namespace
+
+record::Output output_of(const std::string& output, const std::string& resume, bool of_finished) {
+  return {output.empty() ? resume : output, of_finished ? "" : resume};
+}
+
+record::Checkpoint checkpoint_of(const std::string& path, const Plan& plan) {
+  const scenario::Scenario& scenario = plan.scenario;
+  record::Checkpoint saved =
+      record::read_checkpoint(path, plan.is_on_plane() ? record::plane_format : record::pulse_format);
   if (saved.version != SLIPFRONT_VERSION)
     throw InputError({.file = path,
                       .key = "resume",
@@ -116,46 +125,12 @@ record::Checkpoint read(const std::string& path, const std::string& format, cons
   const scenario::Scenario begun = scenario::read_scenario(saved.scenario_text, scenario.file, {}, read_table);
   const Continued continued{path, begun, scenario};
   require_later_end(continued);
-  const Plan first = plan_of(begun);
-  same_problem(continued, first);
-  const std::vector<double>& times = first.schedule.times;
-  const bool still_output = require_common_times(continued, times, plan.schedule.times);
-  keep_common_snapshots(still_output, times.back(), saved.snapshots);
-  keep_common_snapshots(still_output, times.back(), saved.fields);
+  const Plan first = plan_of(plan.solver, begun, plan.share_of_machine);
+  require_same_choices(continued, choices_of(first), choices_of(plan));
+  const bool still_output = require_common_times(continued, first.times(), plan.times());
+  keep_common_snapshots(still_output, first.times().back(), saved.snapshots);
+  keep_common_snapshots(still_output, first.times().back(), saved.fields);
   return saved;
-}
-
-}  // namespace
-
-record::Output output_of(const std::string& output, const std::string& resume, bool of_finished) {
-  return {output.empty() ? resume : output, of_finished ? "" : resume};
-}
-
-record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const PulsePlan& plan) {
-  return read(
-      path, record::pulse_format, scenario, plan, plan_pulse,
-      [&](const Continued& continued, const PulsePlan& begun) { require_same_problem(continued, begun, plan); });
-}
-
-record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const ChainPlan& plan,
-                                 double share_of_machine) {
-  return read(
-      path, record::pulse_format, scenario, plan,
-      [&](const scenario::Scenario& begun) { return plan_chain(begun, share_of_machine); },
-      [&](const Continued& continued, const ChainPlan& begun) {
-        require_same_problem(continued, begun, plan, share_of_machine);
-      });
-}
-
-record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const PlanePlan& plan) {
-  return read(
-      path, record::plane_format, scenario, plan,
-      [&](const scenario::Scenario& begun) { return plan_plane(begun, plan.lines); },
-      [&](const Continued& continued, const PlanePlan& begun) {
-        if (begun.schedule.interval != plan.schedule.interval)
-          continued.refuse_choice("the time between two rows of the series", digits(begun.schedule.interval),
-                                  digits(plan.schedule.interval), "a new run");
-      });
 }
 
 }  // namespace slipfront::run

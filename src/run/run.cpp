@@ -3,24 +3,13 @@
 #include <utility>
 
 #include "record/files/unfinished.hpp"
-#include "record/pulses/comparison_file.hpp"
-#include "run/carry_out.hpp"
-#include "scenario/solver_errors.hpp"
+#include "record/runs/comparison_file.hpp"
+#include "run/errors.hpp"
+#include "run/fault_plane.hpp"
 #include "slipfront/scenario/problem.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::run {
-namespace {
-
-/// A run from its beginning, or from where the checkpoint left it.
-template <class Run, class... Arguments>
-std::unique_ptr<Run> begun(const Options& options, const Arguments&... arguments) {
-  if (!options.checkpoint) return std::make_unique<Run>(arguments...);
-  return std::make_unique<Run>(arguments..., options.checkpoint->solver_state, options.checkpoint->snapshots);
-}
-
-}  // namespace
-
 void require_inputs_kept(const scenario::Scenario& scenario, const std::string& output) {
   if (!output.empty()) record::require_other_file(output, scenario::files_of(scenario));
 }
@@ -43,8 +32,8 @@ void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si) {
     scenario.warnings.push_back("SI units were converted with " + assumed + ", which [medium] does not give");
 }
 
-record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
-                                  const std::vector<double>& x_edges, const std::vector<double>& scales) {
+record::RunMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
+                                const std::vector<double>& x_edges, const std::vector<double>& scales) {
   std::vector<std::string> variables = scenario.output.variables;
   if (!scenario.pulse.many_trains || command != "pulse")
     std::erase(variables, "trains");
@@ -62,85 +51,125 @@ record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std:
           .units = scenario.results_in};
 }
 
-PulsePlan plan_pulse(const scenario::Scenario& scenario) {
-  const auto make = [&] {
-    PulsePlan plan{.problem = scenario::pulse_problem(scenario), .schedule = {}, .need = {}, .file = scenario.file};
-    plan.schedule = scenario::pulse_schedule(scenario, plan.problem);
-    plan.need = scenario::estimate_of(scenario, plan.problem);
-    return plan;
+namespace {
+
+void plan_line(Plan& plan) {
+  const scenario::Scenario& s = plan.scenario;
+  if (plan.solver == scenario::SolverKind::pulse) {
+    plan.pulse = scenario::pulse_problem(s);
+    plan.on_line = scenario::pulse_schedule(s, plan.pulse);
+    plan.need = scenario::estimate_of(s, plan.pulse);
+    return;
+  }
+  plan.chain = scenario::chain_problem(s);
+  plan.on_line = scenario::pulse_schedule(s, scenario::stated_problem(s));
+  plan.on_line.displacement = s.output.displacement;
+  plan.on_line.dislocations = s.output.dislocations;
+  scenario::require_memory(s, plan.chain, plan.share_of_machine);
+  plan.need = scenario::estimate_of(s, plan.chain);
+}
+
+/// A run from its beginning, or from where the checkpoint left it with these `snapshots`.
+template <class Run, class Snapshots, class... Arguments>
+std::unique_ptr<Run> begun(const Options& options, Snapshots record::Checkpoint::*snapshots, Arguments&&... arguments) {
+  if (!options.checkpoint) return std::make_unique<Run>(std::forward<Arguments>(arguments)...);
+  const record::Checkpoint& saved = *options.checkpoint;
+  return std::make_unique<Run>(std::forward<Arguments>(arguments)..., saved.solver_state, saved.*snapshots);
+}
+
+/// The part of a result that is equal for all runs along a line.
+template <class Run>
+Result on_line(std::unique_ptr<Run> owned, const Plan& plan, const char* command) {
+  const Run& run = *owned;
+  return {.run = std::move(owned),
+          .metadata = metadata_of(plan.scenario, command, plan.on_line.x_edges),
+          .arrays =
+              [&run](const record::RunMetadata& metadata) {
+                return record::arrays_of(metadata, record::times_of(run.snapshots()), {&run.snapshots()}, false);
+              },
+          .write =
+              [&run](const std::string& path, const record::RunMetadata& metadata, const std::string& state) {
+                record::write_pulse(path, metadata, run.snapshots(), state, run.finished());
+              }};
+}
+
+Result begin_pulse(const Plan& plan, const Options& options) {
+  auto owned = begun<pulse::Run>(options, &record::Checkpoint::snapshots, plan.pulse, plan.on_line);
+  const pulse::Run& run = *owned;
+  Result result = on_line(std::move(owned), plan, "pulse");
+  result.numbers = [&run](const output::Spent& spent) { return rows_of({run, spent.wall}); };
+  result.add_errors = [&run, &plan](std::vector<Row>& summary, const std::function<bool()>& interrupted) {
+    return add_pulse_errors(run, summary, plan, interrupted);
   };
-  return scenario::with_units(scenario,
-                              [&] { return scenario::with_keys(scenario::SolverKind::pulse, scenario.file, make); });
+  return result;
 }
 
-ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine) {
-  const auto make = [&] {
-    ChainPlan plan{.chain = scenario::chain_problem(scenario),
-                   .schedule = scenario::pulse_schedule(scenario, scenario::stated_problem(scenario)),
-                   .need = {},
-                   .file = scenario.file};
-    plan.schedule.displacement = scenario.output.displacement;
-    plan.schedule.dislocations = scenario.output.dislocations;
-    scenario::require_memory(scenario, plan.chain, share_of_machine);
-    plan.need = scenario::estimate_of(scenario, plan.chain);
-    return plan;
-  };
-  return scenario::with_units(scenario,
-                              [&] { return scenario::with_keys(scenario::SolverKind::chain, scenario.file, make); });
-}
-
-std::unique_ptr<pulse::Run> begin(const PulsePlan& plan, const Options& options) {
-  return scenario::with_keys(scenario::SolverKind::pulse, plan.file,
-                             [&] { return begun<pulse::Run>(options, plan.problem, plan.schedule); });
-}
-
-std::unique_ptr<chain::Run> begin(const ChainPlan& plan, const Options& options) {
+Result begin_chain(const Plan& plan, const Options& options) {
   const chain::Execution execution{.threads = options.threads, .ranks = options.ranks};
-  return scenario::with_keys(scenario::SolverKind::chain, plan.file,
-                             [&] { return begun<chain::Run>(options, plan.chain, plan.schedule, execution); });
-}
-
-Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& plan, const Options& options) {
-  Result<pulse::Run> result{.run = scenario::with_units(scenario, [&] { return begin(plan, options); }),
-                            .metadata = metadata_of(scenario, "pulse", plan.schedule.x_edges)};
-  const auto write = [&run = *result.run](const std::string& path, const record::PulseMetadata& metadata,
-                                          const std::string& state) {
-    record::write_pulse(path, metadata, run.snapshots(), state, run.finished());
-  };
-  if (!carry_out(result, options, plan.need.disk, write)) return result;
-  result.summary = rows_of({*result.run, seconds_since(options.begun)});
-  return result;
-}
-
-Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& plan, const Options& options) {
-  Result<chain::Run> result{.run = scenario::with_units(scenario, [&] { return begin(plan, options); }),
-                            .metadata = metadata_of(scenario, "chain", plan.schedule.x_edges)};
-  const chain::Run& run = *result.run;
-  if (plan.schedule.displacement) result.metadata.sites = run.sites();
+  auto owned = begun<chain::Run>(options, &record::Checkpoint::snapshots, plan.chain, plan.on_line, execution);
+  const chain::Run& run = *owned;
+  Result result = on_line(std::move(owned), plan, "chain");
+  if (plan.on_line.displacement) result.metadata.sites = run.sites();
   result.metadata.paths = run.path_settings();
-  const long first = run.steps();
-  const auto begun = Clock::now();
-  const bool reached =
-      carry_out(result, options, plan.need.disk,
-                [&](const std::string& path, record::PulseMetadata metadata, const std::string& state) {
-                  metadata.events = run.events();
-                  metadata.fronts = run.fronts();
-                  record::write_pulse(path, metadata, run.snapshots(), state, run.finished());
-                });
-  const double stepping = seconds_since(begun);
-  result.metadata.events = run.events();
-  result.metadata.fronts = run.fronts();
-  if (!reached) return result;
-  const chain::Averages averages = run.averages();
-  result.summary = rows_of({.run = run,
-                            .balance = run.balance(),  // asks all ranks
-                            .averages = averages,
-                            .stepping = stepping,
-                            .wall = seconds_since(options.begun),
-                            .steps = run.steps() - first,
-                            .ranks = options.ranks ? options.ranks->size() : 1,
-                            .threads = options.threads});
+  result.describe = [&run](record::RunMetadata& metadata) {
+    metadata.events = run.events();
+    metadata.fronts = run.fronts();
+  };
+  result.numbers = [&run](const output::Spent& spent) {
+    const chain::Averages averages = run.averages();
+    return rows_of({run, run.balance(), averages, spent});
+  };
   return result;
+}
+
+Result begin_plane(const Plan& plan, const Options& options) {
+  const scenario::Scenario& s = plan.scenario;
+  auto owned = begun<plane::Run>(options, &record::Checkpoint::fields,
+                                 scenario::plane_solver(s, plan.solver, options.threads, options.ranks), plan.on_plane);
+  const plane::Run& run = *owned;
+  Result result{
+      .run = std::move(owned),
+      .metadata = metadata_of(s, plan.solver == scenario::SolverKind::plane ? "plane" : "plane --direct", {})};
+  result.arrays = [&run](const record::RunMetadata&) { return record::arrays_of(run); };
+  result.write = [&run](const std::string& path, const record::RunMetadata& metadata, const std::string& state) {
+    record::write_run(path, metadata, record::arrays_of(run), state, run.finished());
+  };
+  result.numbers = [&run, &plan](const output::Spent& spent) {
+    std::vector<Row> rows = rows_of(run, plan.scenario.plane->probes, spent.wall);
+    if (plan.model)
+      for (Row& row : compare_with_model(*plan.model, plan.scenario, run)) rows.push_back(std::move(row));
+    return rows;
+  };
+  if (!options.ranks && !plan.model)  // processes that share a run do not share coarser ones
+    result.add_errors = [&plan, threads = options.threads](std::vector<Row>& summary,
+                                                           const std::function<bool()>& interrupted) {
+      add_plane_errors(summary, plan, interrupted, threads);
+      return std::vector<std::string>{};
+    };
+  return result;
+}
+
+}  // namespace
+
+Plan plan_of(scenario::SolverKind solver, scenario::Scenario s, double share_of_machine) {
+  Plan plan{.solver = solver, .scenario = std::move(s), .share_of_machine = share_of_machine};
+  if (!plan.is_on_plane()) {
+    scenario::with_units(plan.scenario,
+                         [&] { scenario::with_keys(solver, plan.scenario.file, [&] { plan_line(plan); }); });
+    return plan;
+  }
+  plan.on_plane = scenario::plane_schedule(plan.scenario, solver);
+  plan.need.disk = scenario::plane_file_size(plan.on_plane);
+  return plan;
+}
+
+Result begin(const Plan& plan, const Options& options) {
+  return scenario::with_units(plan.scenario, [&] {
+    if (plan.is_on_plane()) return begin_plane(plan, options);
+    return scenario::with_keys(plan.solver, plan.scenario.file, [&] {
+      return plan.solver == scenario::SolverKind::pulse ? begin_pulse(plan, options) : begin_chain(plan, options);
+    });
+  });
 }
 
 bool compare(const scenario::Scenario& scenario, const Comparison& comparison, const std::vector<double>& scales,

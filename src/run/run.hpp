@@ -12,12 +12,16 @@
 #include "foundation/clock.hpp"
 #include "foundation/ranks.hpp"
 #include "record/files/unfinished.hpp"
-#include "record/pulses/pulse_file.hpp"
+#include "record/runs/arrays.hpp"
+#include "record/runs/run_file.hpp"
 #include "run/compare.hpp"
 #include "run/summary.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/solver_errors.hpp"
 #include "slipfront/chain/run.hpp"
+#include "slipfront/plane/run.hpp"
 #include "slipfront/pulse/run.hpp"
+#include "slipfront/scenario/problem.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::run {
@@ -40,64 +44,79 @@ struct Options {
 void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si);
 
 /// The metadata for the file of a run of `command`.
-record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
-                                  const std::vector<double>& x_edges, const std::vector<double>& scales = {});
+record::RunMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
+                                const std::vector<double>& x_edges, const std::vector<double>& scales = {});
 
-/// A problem to solve, its output times, and the memory and disk that it needs. A plan has been checked, so errors
-/// appear before the work.
-struct PulsePlan {
-  pulse::Problem problem;
-  output::Schedule schedule;
-  scenario::Estimate need;
-  std::string file;  ///< the file of the scenario, which errors name
+struct FaultOnPlane;
+
+/// A run that has been planned and checked, so that errors appear before the work. It must outlive the run.
+struct Plan {
+  scenario::SolverKind solver = scenario::SolverKind::pulse;
+  scenario::Scenario scenario = {};
+  double share_of_machine = 1;   ///< the part of the chain on this machine, if several processes share it
+  scenario::Estimate need = {};  ///< on a plane only of the disk
+  // The problem of the solver, and its output times, on a line or on a plane. The others are empty.
+  pulse::Problem pulse = {};
+  chain::ScaledProblem chain = {};
+  output::Schedule on_line = {};
+  plane::Schedule on_plane = {};
+  /// The finite-fault model from which the scenario was made, and with which the results are compared; null: none.
+  std::shared_ptr<const FaultOnPlane> model = {};
+
+  bool is_on_plane() const { return solver != scenario::SolverKind::pulse && solver != scenario::SolverKind::chain; }
+  const std::vector<double>& times() const { return is_on_plane() ? on_plane.times : on_line.times; }
 };
-struct ChainPlan {
-  chain::ScaledProblem chain;
-  output::Schedule schedule;
-  scenario::Estimate need;
-  std::string file;  ///< the file of the scenario, which errors name
-};
+/// \throws InputError.
+Plan plan_of(scenario::SolverKind solver, scenario::Scenario scenario, double share_of_machine = 1);
 
 /// \throws InputError if `output` is the scenario file or one of its tables (record::require_other_file).
 void require_inputs_kept(const scenario::Scenario& scenario, const std::string& output);
-
-/// Plans a pulse run. \throws InputError.
-PulsePlan plan_pulse(const scenario::Scenario& scenario);
-/// Plans a chain run. If several processes share the chain, `share_of_machine` is the part on this machine. \throws
-/// InputError.
-ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine = 1);
 
 /// Reads the state from which a planned run continues, of an unfinished or a finished run. The scenario is that of the
 /// file, or the same with a later time.end and with other output times from the end of the file on. The results are
 /// then those of one run to the later end, to the last bit. Snapshots that such a run would not have are left out.
 /// \throws FileError; InputError if the file is from another scenario or version, if the end is earlier, or if time.end
 /// decides how the run begins.
-record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const PulsePlan& plan);
-record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const ChainPlan& plan,
-                                 double share_of_machine = 1);
+record::Checkpoint checkpoint_of(const std::string& path, const Plan& plan);
 
 /// The output of a run that writes to `output`, or else to the file `resume` from which it resumes. Both may be empty.
 /// If that file is finished (`of_finished`), the run must not lose its result: it replaces it at its end only. \throws
 /// FileError.
 record::Output output_of(const std::string& output, const std::string& resume, bool of_finished);
 
-/// The result of a run. The summary is empty unless the run is finished.
-template <class Run>
+/// A run by any solver.
 struct Result {
-  std::unique_ptr<Run> run;
-  record::PulseMetadata metadata;  ///< includes the warnings of a finished run
-  std::vector<Row> summary = {};   ///< in the units of the model
+  std::unique_ptr<output::Run> run;
+  record::RunMetadata metadata;   ///< includes the warnings of a finished run
+  std::vector<Row> summary = {};  ///< numbers of a finished run, in the units of the model
+
+  // Functions that differ from solver to solver. They refer to the run and its plan.
+  /// Adds the events so far to the metadata. Null: the run has no events.
+  std::function<void(record::RunMetadata& metadata)> describe = {};
+  /// Returns the variables of the file.
+  std::function<std::vector<record::Array>(const record::RunMetadata& metadata)> arrays = {};
+  /// Writes the run and its saved state to a file.
+  std::function<void(const std::string& path, const record::RunMetadata& metadata, const std::string& state)> write =
+      {};
+  /// (all ranks) Returns the summary.
+  std::function<std::vector<Row>(const output::Spent& spent)> numbers = {};
+  /// Sets the errors of the summary, by coarser runs (run/errors.hpp). Returns warnings. Null: they are set, or there
+  /// are none.
+  std::function<std::vector<std::string>(std::vector<Row>& summary, const std::function<bool()>& interrupted)>
+      add_errors = {};
+
   bool finished() const { return run->finished(); }
 };
 
 /// Begins a planned run, or resumes it, and takes no step. It refuses all that a run refuses at its start. \throws
 /// InputError, NumericsError.
-std::unique_ptr<pulse::Run> begin(const PulsePlan& plan, const Options& options);
-std::unique_ptr<chain::Run> begin(const ChainPlan& plan, const Options& options);
+Result begin(const Plan& plan, const Options& options);
 
-/// Runs a pulse or a chain. \throws NumericsError, after writing the results so far; InputError, FileError.
-Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& plan, const Options& options);
-Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& plan, const Options& options);
+/// Continues a run until its end, or until `options.after_step` returns true. It writes the file at the start, so that
+/// a bad path or a full disk fails before the work. It writes again from time to time, and when the run stops. An
+/// existing file at the output is replaced only at the end of the run. \throws NumericsError, after writing the results
+/// so far; InputError, FileError.
+Result carry_out(const Plan& plan, const Options& options);
 
 /// Runs a comparison, and writes each level when it is finished. `levels` gets the finished levels. `scales` are those
 /// that the user stated. Returns whether all levels are finished. \throws as run_levels, FileError.

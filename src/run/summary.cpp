@@ -4,8 +4,6 @@
 #include <utility>
 
 #include "foundation/math/constants.hpp"
-#include "run/plane.hpp"
-#include "slipfront/plane/quantities.hpp"
 
 namespace slipfront::run {
 namespace {
@@ -16,16 +14,22 @@ using output::Scalar;
 /// Whether runs of a solver have this number.
 bool is_of(const Scalar& scalar, MeasuredBy solver) { return scalar.by == MeasuredBy::all || scalar.by == solver; }
 
+/// Adds the numbers of a whole run.
+template <class Report>
+void add_numbers(const Report& report, std::span<const output::Quantity<Report>> of_run, std::vector<Row>& rows) {
+  for (const output::Quantity<Report>& quantity : of_run) {
+    rows.emplace_back(quantity.about, quantity.get(report));
+    if (quantity.unit) rows.back().unit = quantity.unit(report);
+  }
+}
+
 template <class Report>
 std::vector<Row> all_rows(const Report& report, std::span<const output::Quantity<Report>> of_run, MeasuredBy solver) {
   const output::Snapshot& end = report.run.snapshots().back();
   std::vector<Row> rows = {{output::end_time, end.time}};
   for (const Scalar& scalar : output::scalars())
     if (is_of(scalar, solver)) rows.emplace_back(scalar.about, scalar.get(end));
-  for (const output::Quantity<Report>& quantity : of_run) {
-    rows.emplace_back(quantity.about, quantity.get(report));
-    if (quantity.unit) rows.back().unit = quantity.unit(report);
-  }
+  add_numbers(report, of_run, rows);
   return rows;
 }
 
@@ -41,11 +45,8 @@ std::vector<NumberOfRun> all_numbers(std::span<const output::Quantity<Report>> o
 
 }  // namespace
 
-Row::Row(const Description& description, Value a_value, std::vector<double> its_errors)
-    : about(description),
-      value(std::move(a_value)),
-      errors(std::move(its_errors)),
-      unit(description.dimensional_unit) {}
+Row::Row(const Description& description, Value a_value)
+    : about(description), value(std::move(a_value)), unit(description.dimensional_unit) {}
 
 std::string_view Row::key() const { return group.empty() ? about.name : about.name.substr(about.name.find('_') + 1); }
 
@@ -59,6 +60,12 @@ std::string Row::meaning() const {
 std::string_view Row::reason() const {
   const double* const number = std::get_if<double>(&value);
   return number && !std::isfinite(*number) ? about.reason : std::string_view{};
+}
+
+std::span<const double> Row::reals() const {
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) return *list;
+  if (const auto* real = std::get_if<double>(&value)) return {real, 1};
+  return {};
 }
 
 double Row::number() const {
@@ -82,20 +89,16 @@ std::vector<Row> rows_of(const chain::Report& report) {
   return rows;
 }
 
-std::vector<Row> rows_of(const PlaneResult& result, const PlaneNumbers& errors) {
-  const PlaneNumbers& n = result.numbers;
-  std::vector<Row> rows = {{output::end_time, n.end.time}};
+std::vector<Row> rows_of(const plane::Run& run, const std::vector<plane::Point>& probes, double wall) {
+  const plane::SeriesRow& end = run.series().back();
+  std::vector<Row> rows = {{output::end_time, end.time}};
   for (const plane::SeriesNumber& number : plane::series_numbers()) {
     if (number.about.error == ErrorRule::unknown) continue;
-    Row& row = rows.emplace_back(number.about, number.get(n.end), std::vector{number.get(errors.end)});
+    Row& row = rows.emplace_back(number.about, number.get(end));
     if (row.about.name.starts_with("energy_")) row.group = "energies";
   }
-  const plane::Report report{*result.run, result.run->maps(), n.slip_at_probes, n.slip_velocity_at_probes, result.wall};
-  for (const output::Quantity<plane::Report>& quantity : plane::quantities()) {
-    Row& row = rows.emplace_back(quantity.about, quantity.get(report));
-    if (row.about.error == ErrorRule::slip) row.errors = errors.slip_at_probes;
-    if (row.about.error == ErrorRule::slip_velocity) row.errors = errors.slip_velocity_at_probes;
-  }
+  const plane::Solver& solver = run.solver();
+  add_numbers({run, run.maps(), solver.slip(probes), solver.velocity(probes), wall}, plane::quantities(), rows);
   return rows;
 }
 

@@ -11,6 +11,7 @@
 #include "slipfront/chain/run.hpp"
 #include "slipfront/medium/si_units.hpp"
 #include "slipfront/output/quantities.hpp"
+#include "slipfront/plane/quantities.hpp"
 #include "slipfront/pulse/run.hpp"
 
 namespace slipfront::run {
@@ -19,11 +20,11 @@ using output::Value;
 
 /// A number, a text, or one number for each of some positions.
 struct Row {
-  Row(const Description& description, Value a_value, std::vector<double> its_errors = {});
+  Row(const Description& description, Value a_value);
 
   Description about;
   Value value;
-  std::vector<double> errors;  ///< one for each number; empty or NaN where it is not known
+  std::vector<double> errors = {};  ///< one for each number; empty or NaN where it is not known
   std::string unit;            ///< the unit of the model, or the SI unit as UDUNITS reads it; empty for a pure number
   bool between_faces = false;  ///< it is in SI units, and measures slip between the two faces
   std::string group = {};      ///< the JSON object that holds the row, under its name without the prefix
@@ -33,11 +34,14 @@ struct Row {
   std::string meaning() const;
   /// Why it has no value. Empty if it has one.
   std::string_view reason() const;
-  double number() const;  ///< NaN for a text or a list
+  std::span<const double> reals() const;  ///< the number or those of the list; empty if it has none with a fraction
+  double number() const;                  ///< NaN for a text or a list
 };
 
 std::vector<Row> rows_of(const pulse::Report& report);
 std::vector<Row> rows_of(const chain::Report& report);
+/// (all ranks)
+std::vector<Row> rows_of(const plane::Run& run, const std::vector<plane::Point>& probes, double wall);
 
 /// A number that a run of "pulse" or "chain" has. A sweep returns the results by default, but not its time and machine.
 struct NumberOfRun {

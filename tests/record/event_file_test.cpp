@@ -9,7 +9,7 @@
 #include "record/files/seal.hpp"
 #include "record/files/text_file.hpp"
 #include "record/netcdf/netcdf.hpp"
-#include "record/pulses/pulse_file.hpp"
+#include "record/runs/run_file.hpp"
 #include "results/quantities.hpp"
 #include "results/serialize.hpp"
 #include "slipfront/catalogue/read.hpp"

@@ -11,8 +11,8 @@
 #include "pulse_sample.hpp"
 #include "record/files/seal.hpp"
 #include "record/netcdf/netcdf.hpp"
-#include "record/pulses/pulse_file.hpp"
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/run_file.hpp"
+#include "record/runs/run_variables.hpp"
 #include "slipfront/error.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,5 +1,3 @@
-#include "record/pulses/pulse_file.hpp"
-
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "pulse_sample.hpp"
+#include "record/runs/run_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/output/quantities.hpp"
 #include "temporary_folder.hpp"
@@ -19,8 +18,8 @@ using slipfront::FileError;
 using slipfront::InputError;
 using slipfront::output::Snapshot;
 using slipfront::record::Checkpoint;
-using slipfront::record::PulseMetadata;
 using slipfront::record::read_checkpoint;
+using slipfront::record::RunMetadata;
 using slipfront::record::write_pulse;
 
 using Bits = std::vector<std::uint64_t>;
@@ -64,7 +63,7 @@ TEST(PulseFile, RestoresEveryBit) {
 TEST(PulseFile, RestoresSitesAndDislocations) {
   const TemporaryFolder folder;
   auto snapshots = sample_snapshots(3, 7);
-  slipfront::record::PulseMetadata metadata = sample_metadata(7);
+  slipfront::record::RunMetadata metadata = sample_metadata(7);
   metadata.sites = {-1, -0.9, 1.0 / 3};
   for (Snapshot& s : snapshots) s.displacement = {s.time / 3, -0.0, 1e-310};
   snapshots[1].dislocations = {{-0.5, 1, -7}, {0.1, -1, -7}};
@@ -104,7 +103,7 @@ TEST(PulseFile, WritesTheSameFileForAResumedRun) {
   const TemporaryFolder folder;
   for (const std::vector<std::string>& variables :
        {std::vector<std::string>{}, {"stress_drop", "W"}, {"slip"}, {"Sigma", "stress_drop"}, {"k"}}) {
-    PulseMetadata metadata = sample_metadata(7);
+    RunMetadata metadata = sample_metadata(7);
     metadata.variables = variables;
     const auto all = sample_snapshots(6, 7);
     write_pulse(folder / "whole.nc", metadata, all, "end", true);
@@ -118,7 +117,7 @@ TEST(PulseFile, WritesTheSameFileForAResumedRun) {
 
 TEST(PulseFile, HoldsOnlyRequestedVariables) {
   const TemporaryFolder folder;
-  PulseMetadata metadata = sample_metadata(7);
+  RunMetadata metadata = sample_metadata(7);
   metadata.variables = {"W"};
   const auto snapshots = sample_snapshots(3, 7);
   write_pulse(folder / "a.nc", metadata, snapshots, "", false);
@@ -130,7 +129,7 @@ TEST(PulseFile, HoldsOnlyRequestedVariables) {
 
 TEST(PulseFile, ListsKnownVariablesIfOneIsUnknown) {
   const TemporaryFolder folder;
-  PulseMetadata metadata = sample_metadata(7);
+  RunMetadata metadata = sample_metadata(7);
   metadata.variables = {"W", "w"};
   const std::string message = message_of<InputError>([&] { write_pulse(folder / "a.nc", metadata, {}, "", false); });
   EXPECT_EQ(message, "output.variables = 'w': unknown variable; allowed: k, Sigma, U, W, H, slip, stress_drop, trains");
@@ -144,7 +143,7 @@ TEST(PulseFile, RestoresAScenarioOfAnyBytes) {
         std::string("# Gr\xc3\xb6\xc3\x9f"
                     "e\r\n"),
         std::string("\xed\xa0\x80"), std::string(60000, 'x'), std::string(60001, 'x'), std::string(1000000, '#')}) {
-    PulseMetadata metadata = sample_metadata(3);
+    RunMetadata metadata = sample_metadata(3);
     metadata.scenario_text = scenario;
     metadata.title = metadata.command_line = scenario;  // must not break the file either
     write_pulse(folder / "a.nc", metadata, {}, "", false);
@@ -154,7 +153,7 @@ TEST(PulseFile, RestoresAScenarioOfAnyBytes) {
 
 TEST(PulseFile, RejectsWrongArguments) {
   const TemporaryFolder folder;
-  const auto refused = [&](const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+  const auto refused = [&](const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
     return message_of<std::invalid_argument>([&] { write_pulse(folder / "a.nc", metadata, snapshots, "", false); });
   };
   auto snapshots = sample_snapshots(2, 7);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "record/pulses/pulse_file.hpp"
+#include "record/runs/run_file.hpp"
 
 /// Numbers that a lossy file would not bring back: NaN, infinity, -0, subnormal, all bits of the mantissa.
 inline std::vector<slipfront::output::Snapshot> sample_snapshots(std::size_t times, std::size_t cells) {
@@ -40,8 +40,8 @@ inline std::vector<slipfront::output::Snapshot> sample_snapshots(std::size_t tim
   return snapshots;
 }
 
-inline slipfront::record::PulseMetadata sample_metadata(std::size_t cells) {
-  slipfront::record::PulseMetadata metadata{
+inline slipfront::record::RunMetadata sample_metadata(std::size_t cells) {
+  slipfront::record::RunMetadata metadata{
       "a title", "title = \"a title\"\n[initial]\n", "1.2.3", "slipfront pulse a.toml", {}, {}};
   for (std::size_t i = 0; i <= cells; ++i) metadata.x_edges.push_back(0.1 * static_cast<double>(i) - 1);
   return metadata;

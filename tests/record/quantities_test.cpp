@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/run_variables.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/medium/si_units.hpp"
 #include "slipfront/output/slip_event.hpp"

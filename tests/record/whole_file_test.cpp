@@ -17,7 +17,7 @@
 #include <string>
 
 #include "pulse_sample.hpp"
-#include "record/pulses/pulse_file.hpp"
+#include "record/runs/run_file.hpp"
 #include "slipfront/error.hpp"
 #include "temporary_folder.hpp"
 

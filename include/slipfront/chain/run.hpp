@@ -15,6 +15,7 @@
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/output/dislocation_paths.hpp"
 #include "slipfront/output/quantities.hpp"
+#include "slipfront/output/run.hpp"
 #include "slipfront/output/self_check.hpp"
 #include "slipfront/output/snapshot.hpp"
 
@@ -70,32 +71,30 @@ struct Averages {
 class EventOutputs;
 class RunObserver;
 
-class Run {
+class Run : public output::Run {
  public:
   Run(const ScaledProblem& scaled, output::Schedule schedule, const Execution& execution);
   /// Continues a saved run. \throws InputError if another scenario was saved.
   Run(const ScaledProblem& scaled, output::Schedule schedule, const Execution& execution, std::string_view saved,
       std::vector<output::Snapshot> snapshots);
-  ~Run();
+  ~Run() override;
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
   /// Continues to the end, or until `interrupted` returns true. The run calls `interrupted` about every tenth of a
   /// second. Returns whether the run has reached its end.
-  bool go(const std::function<bool()>& interrupted = {});
+  bool go(const std::function<bool()>& interrupted = {}) override;
 
   const Chain& chain() const { return *chain_; }
   const output::Schedule& schedule() const { return schedule_; }
   /// Snapshots of the output times and, between them, those of slip events that the schedule asks for.
   const std::vector<output::Snapshot>& snapshots() const;
-  bool can_checkpoint() const { return chain_->valid(); }  ///< whether the run can be saved
-  bool finished() const;
-  /// The state of the run as bytes.
-  std::string saved() const;
-  void archive(Archive& a);
+  bool can_checkpoint() const override { return chain_->valid(); }
+  bool finished() const override;
+  void archive(Archive& a) override;
 
-  double time() const { return chain_->time() / scale_; }  ///< in the scenario's units
-  long steps() const { return chain_->steps(); }
+  double time() const override { return chain_->time() / scale_; }  ///< in the scenario's units
+  long steps() const override { return chain_->steps(); }
   double scale() const { return scale_; }
   std::vector<double> sites() const;           ///< positions of the sites, in the scenario's x
   output::PathSettings path_settings() const;  ///< how to follow its dislocations
@@ -117,7 +116,7 @@ class Run {
   /// |W| <= k, and that fronts are inside the domain and slower than c. It warns of a grid that holds slow
   /// dislocations, and of too few dislocations. If an error is above 1 %, `go` throws a NumericsError that states the
   /// reason.
-  std::vector<std::string> warnings() const;
+  std::vector<std::string> warnings() const override;
 
  private:
   bool advance_to(double time, const std::function<bool()>& interrupted);
@@ -134,11 +133,9 @@ class Run {
 /// A run that has reached its end, and how it was run.
 struct Report {
   const Run& run;
-  Balance balance;        ///< result of run.balance(), in which all ranks take part
-  Averages averages;      ///< result of run.averages(), like `balance`
-  double stepping, wall;  ///< seconds of the run only, and of everything
-  long steps;             ///< steps in these seconds
-  int ranks, threads;
+  Balance balance;    ///< result of run.balance(), in which all ranks take part
+  Averages averages;  ///< result of run.averages(), like `balance`
+  output::Spent spent;
 };
 /// The numbers of a run that its snapshots do not have.
 std::span<const output::Quantity<Report>> quantities();

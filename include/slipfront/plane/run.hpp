@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "slipfront/output/run.hpp"
 #include "slipfront/plane/problem.hpp"
 
 namespace slipfront::plane {
@@ -50,7 +51,7 @@ struct Maps {
   std::vector<double> slip;                ///< at the last row of the series
 };
 
-class Run {
+class Run : public output::Run {
  public:
   Run(std::unique_ptr<Solver> solver, Schedule schedule);
   /// Resumes a saved run. `snapshots` are those before it was saved. The schedule may end later; the results are then
@@ -60,22 +61,18 @@ class Run {
   /// Advances to the end, or until `interrupted` returns true; it is called after every step. Returns whether the end
   /// was reached. \throws NumericsError if the solver fails, if the run needs far more steps than waves do, and at the
   /// end if nine tenths of the energy are missing.
-  bool go(const std::function<bool()>& interrupted = {});
+  bool go(const std::function<bool()>& interrupted = {}) override;
 
   const Solver& solver() const { return *solver_; }
-  double time() const { return solver_->time(); }
-  long steps() const { return solver_->steps(); }
+  double time() const override { return solver_->time(); }
+  long steps() const override { return solver_->steps(); }
   const Schedule& schedule() const { return schedule_; }
   const std::vector<Field>& snapshots() const { return snapshots_; }
   const std::vector<SeriesRow>& series() const { return seen_.series; }
   Maps maps() const;
-  bool finished() const { return snapshots_.size() == schedule_.times.size(); }
-  /// A run can be saved even after a NumericsError: what was observed before it is valid.
-  bool can_checkpoint() const { return true; }
-  std::vector<std::string> warnings() const;
-  /// The state of the run as bytes.
-  std::string saved() const;
-  void archive(Archive& a);
+  bool finished() const override { return snapshots_.size() == schedule_.times.size(); }
+  std::vector<std::string> warnings() const override;
+  void archive(Archive& a) override;
 
  private:
   /// The results so far, apart from snapshots.

@@ -12,37 +12,34 @@
 #include <vector>
 
 #include "slipfront/output/quantities.hpp"
+#include "slipfront/output/run.hpp"
 #include "slipfront/output/snapshot.hpp"
 #include "slipfront/pulse/problem.hpp"
-
-namespace slipfront {
-class StepBudget;
-}
 
 namespace slipfront::pulse {
 
 class Solver;
 struct SlipTwice;
 
-class Run {
+class Run : public output::Run {
  public:
   Run(Problem problem, output::Schedule schedule);
   /// Resumes a saved run. The schedule may end later than that of the saved run. It must agree with it before the end
   /// of the saved run, and `snapshots` are then those before that end. The results are those of a run that had the
   /// later end from its start. \throws InputError if the run was saved for another problem or schedule.
   Run(Problem problem, output::Schedule schedule, std::string_view saved, std::vector<output::Snapshot> snapshots);
-  ~Run();
+  ~Run() override;
   Run(Run&&) noexcept;
   Run& operator=(Run&&) noexcept;
 
   /// Advances to the end, or until `interrupted` returns true; it is called after every step. The run can be saved at
   /// that point. Returns whether the end was reached. \throws NumericsError if the solver fails, if the step budget is
   /// exhausted, or if results violate an invariant by more than 1 %.
-  bool go(const std::function<bool()>& interrupted = {});
+  bool go(const std::function<bool()>& interrupted = {}) override;
 
   const Problem& problem() const;
-  double time() const;
-  long steps() const;
+  double time() const override;
+  long steps() const override;
   /// Time and x at which dislocations first overtake each other, if that makes the results approximate; else NaN.
   double crossing_time() const;
   double crossing_position() const;
@@ -52,20 +49,15 @@ class Run {
   const Solver& solver() const;
   const output::Schedule& schedule() const;
   const std::vector<output::Snapshot>& snapshots() const;
-  /// Limit on the number of steps.
-  const StepBudget& budget() const;
+  double expected_steps() const override;
   /// Wall time of the steps in seconds, without the time for the initial cells and for outputs.
   double stepping_seconds() const;
-  /// A run can be saved even after a NumericsError, because a failed step changes nothing.
-  bool can_checkpoint() const { return true; }
-  bool finished() const;
-  /// Sentences that describe wrong or doubtful results so far.
-  std::vector<std::string> warnings() const;
+  bool finished() const override;
+  std::vector<std::string> warnings() const override;
   /// Slip at x = 0, computed in two ways that should agree (pulse/checks/slip_record.hpp). Empty if x = 0 is outside
   /// the domain, or if the run has too few samples.
   std::optional<SlipTwice> slip_twice() const;
-  /// The state of the run as bytes, for a checkpoint that the same kind of machine can read.
-  std::string saved() const;
+  void archive(Archive& a) override;
 
  private:
   struct Parts;

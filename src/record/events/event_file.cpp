@@ -9,7 +9,7 @@
 #include "record/events/event_layout.hpp"
 #include "record/files/fnv.hpp"
 #include "record/netcdf/netcdf.hpp"
-#include "record/pulses/cf.hpp"
+#include "record/runs/cf.hpp"
 #include "results/columns.hpp"
 #include "results/serialize.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "record/events/event_file.hpp"
 #include "record/events/event_layout.hpp"
-#include "record/pulses/cf.hpp"
+#include "record/runs/cf.hpp"
 
 namespace slipfront::record {
 

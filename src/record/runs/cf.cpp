@@ -1,4 +1,4 @@
-#include "record/pulses/cf.hpp"
+#include "record/runs/cf.hpp"
 
 #include <string>
 #include <string_view>
@@ -12,7 +12,7 @@ constexpr std::string_view paper = "Gershenzon, Bambakidis and Skinner (2015)";
 constexpr std::string_view paper_title =
     "How does dissipation affect the transition from static to dynamic macroscopic friction?";
 
-void describe(Writer& file, int variable, const Description& about, const PulseMetadata& metadata) {
+void describe(Writer& file, int variable, const Description& about, const RunMetadata& metadata) {
   if (!metadata.units || about.dimensional_unit.empty()) {
     file.attribute(variable, "long_name", about.long_name);
     file.attribute(variable, "units", "1");
@@ -27,7 +27,7 @@ void describe(Writer& file, int variable, const Description& about, const PulseM
   file.attribute(variable, "references", reference_of(about));
 }
 
-std::string comment_of(const PulseMetadata& metadata) {
+std::string comment_of(const RunMetadata& metadata) {
   if (!metadata.units)
     return "All values are dimensionless. Multiply them by dimensional_unit, where A is the contact ratio, b the "
            "asperity spacing, c the speed of strain waves, mu the shear modulus and nu the Poisson ratio.";
@@ -37,13 +37,13 @@ std::string comment_of(const PulseMetadata& metadata) {
 
 }  // namespace
 
-int reals(Writer& file, const Description& about, const std::vector<int>& dimensions, const PulseMetadata& metadata) {
+int reals(Writer& file, const Description& about, const std::vector<int>& dimensions, const RunMetadata& metadata) {
   const int variable = file.reals(std::string(about.name), dimensions);
   describe(file, variable, about, metadata);
   return variable;
 }
 
-void describe_file(Writer& file, const PulseMetadata& metadata, const char* format, bool finished) {
+void describe_file(Writer& file, const RunMetadata& metadata, const char* format, bool finished) {
   for (const auto& [name, value] : file_attributes(metadata, format))
     file.attribute(Writer::global, name, clean_text(value, netcdf::longest_text));
   file.attribute(Writer::global, "finished", finished ? 1 : 0);
@@ -61,7 +61,7 @@ std::string reference_of(const Description& about) {
   return std::string(cf::paper) + ", " + std::string(about.reference);
 }
 
-std::vector<std::pair<std::string, std::string>> file_attributes(const PulseMetadata& metadata,
+std::vector<std::pair<std::string, std::string>> file_attributes(const RunMetadata& metadata,
                                                                  const std::string& format) {
   std::string warnings;
   for (const std::string& warning : metadata.warnings) warnings += (warnings.empty() ? "" : "\n") + warning;

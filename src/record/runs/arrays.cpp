@@ -1,4 +1,4 @@
-#include "record/pulses/arrays.hpp"
+#include "record/runs/arrays.hpp"
 
 #include <memory>
 #include <numeric>
@@ -8,9 +8,9 @@
 #include "foundation/machine.hpp"
 #include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
-#include "record/pulses/cf.hpp"
-#include "record/pulses/pulse_layout.hpp"
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/cf.hpp"
+#include "record/runs/run_layout.hpp"
+#include "record/runs/run_variables.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/output/dislocation_paths.hpp"
 #include "slipfront/output/quantities.hpp"
@@ -46,18 +46,13 @@ void add_axes(std::vector<Array>& all, const std::vector<double>& times, const s
 }
 
 /// The slip events, and their arrivals at the positions that the scenario asks for.
-void add_events(std::vector<Array>& all, const PulseMetadata& metadata) {
+void add_events(std::vector<Array>& all, const RunMetadata& metadata) {
   const std::vector<output::SlipEvent>& events = metadata.events;
   if (events.empty()) return;
   for (const output::SlipEventColumn& column : output::slip_event_columns())
     all.push_back({output::description_of(column, metadata.pulled_end),
                    {{"event", events.size()}},
-                   [&events, value = column.value] {
-                     std::vector<double> values;
-                     values.reserve(events.size());
-                     for (const output::SlipEvent& event : events) values.push_back(event.*value);
-                     return values;
-                   },
+                   values_of(events, column.value),
                    {}});
   const output::FrontRecords& fronts = metadata.fronts;
   if (fronts.events.empty()) return;
@@ -65,27 +60,16 @@ void add_events(std::vector<Array>& all, const PulseMetadata& metadata) {
   for (const MemberArray<output::FrontRecord>& column : output::front_columns())
     all.push_back({column.about,
                    {{"event", events.size()}, {output::front_position.name, fronts.x.size()}},
-                   [&fronts, member = column.values] {
-                     std::vector<double> values;
-                     for (const output::FrontRecord& event : fronts.events)
-                       values.insert(values.end(), (event.*member).begin(), (event.*member).end());
-                     return values;
-                   },
+                   values_of(fronts.events, column.values),
                    {}});
 }
 
-void add_displacement(std::vector<Array>& all, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+void add_displacement(std::vector<Array>& all, const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
   if (metadata.sites.empty()) return;
   all.push_back(coordinate(layout::site, metadata.sites));
   all.push_back({layout::displacement,
                  {{"time", snapshots.size()}, {layout::site.name, metadata.sites.size()}},
-                 [&snapshots] {
-                   std::vector<double> values;
-                   values.reserve(snapshots.empty() ? 0 : snapshots.size() * snapshots.front().displacement.size());
-                   for (const Snapshot& s : snapshots)
-                     values.insert(values.end(), s.displacement.begin(), s.displacement.end());
-                   return values;
-                 },
+                 values_of(snapshots, &Snapshot::displacement),
                  {}});
 }
 
@@ -98,7 +82,7 @@ void require_memory(const output::DislocationPaths& paths) {
                         " GB; fewer outputs are needed");
 }
 
-void add_dislocations(std::vector<Array>& all, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+void add_dislocations(std::vector<Array>& all, const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
   const auto paths =
       std::make_shared<const output::DislocationPaths>(output::dislocation_paths(snapshots, metadata.paths));
   const std::size_t count = paths->signs.size();
@@ -137,14 +121,9 @@ Array coordinate(const Description& about, std::vector<double> values, std::stri
   return array;
 }
 
-std::vector<double> times_of(const std::vector<Snapshot>& snapshots) {
-  std::vector<double> times;
-  times.reserve(snapshots.size());
-  for (const Snapshot& snapshot : snapshots) times.push_back(snapshot.time);
-  return times;
-}
+std::vector<double> times_of(const std::vector<Snapshot>& snapshots) { return values_of(snapshots, &Snapshot::time)(); }
 
-std::vector<Array> arrays_of(const PulseMetadata& metadata, const std::vector<double>& times, const Levels& levels,
+std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<double>& times, const Levels& levels,
                              bool by_level) {
   std::vector<Array> all;
   add_axes(all, times, metadata.x_edges);
@@ -178,7 +157,7 @@ std::vector<Array> arrays_of(const PulseMetadata& metadata, const std::vector<do
   return all;
 }
 
-Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const PulseMetadata& metadata) {
+Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const RunMetadata& metadata) {
   Defined defined;
   for (const Array& array : arrays) {
     std::vector<int> ids;

@@ -1,34 +1,26 @@
-#pragma once
-
 #include <filesystem>
-#include <functional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "foundation/clock.hpp"
+#include "foundation/text/digits.hpp"
 #include "record/files/unfinished.hpp"
-#include "record/pulses/pulse_file.hpp"
 #include "run/run.hpp"
-#include "scenario/solver_errors.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::run {
+namespace {
 
 /// Appends the warnings of a finished run to those of its scenario.
-inline void add_warnings(const std::vector<std::string>& of_run, record::PulseMetadata& metadata) {
+void add_warnings(const std::vector<std::string>& of_run, record::RunMetadata& metadata) {
   for (const std::string& warning : of_run) metadata.warnings.push_back(scenario::in_results(warning, metadata.units));
 }
 
-/// Writes a run and its saved state to a file.
-using WriteRun =
-    std::function<void(const std::string& path, const record::PulseMetadata& metadata, const std::string& state)>;
-
-/// Writes the whole run to its output with `write_run`. Until the run has ended, the file is marked as unfinished.
-template <class Run>
+/// Writes the whole run to its output. Until the run has ended, the file is marked as unfinished.
 class Checkpoints {
  public:
-  Checkpoints(const Run& run, const Options& options, const record::PulseMetadata& metadata, const WriteRun& write_run)
-      : run_(run), options_(options), metadata_(metadata), write_run_(write_run) {}
+  Checkpoints(const Result& result, const Options& options) : result_(result), options_(options) {}
 
   /// Whether it is time for a checkpoint. Each writes the whole file, so we limit writing to a small part of the work.
   bool due() const {
@@ -55,13 +47,15 @@ class Checkpoints {
   void write() {
     if (!options_.output.wanted()) return;
     const auto begun = Clock::now();
-    const std::string state = run_.saved();  // all ranks send their parts to the first rank
-    record::PulseMetadata metadata = metadata_;
-    if (run_.finished()) add_warnings(run_.warnings(), metadata);  // warnings() needs all ranks
+    const output::Run& run = *result_.run;
+    const std::string state = run.saved();  // all ranks send their parts to the first rank
+    record::RunMetadata metadata = result_.metadata;
+    if (run.finished()) add_warnings(run.warnings(), metadata);  // warnings() needs all ranks
     on_first([&] {
       const record::Output& output = options_.output;
-      write_run_(run_.finished() ? output.finished() : output.unfinished(), metadata, state);
-      if (run_.finished()) output.clear();
+      if (result_.describe) result_.describe(metadata);
+      result_.write(run.finished() ? output.finished() : output.unfinished(), metadata, state);
+      if (run.finished()) output.clear();
     });
     cost_ = seconds_since(begun);
     written_ = Clock::now();
@@ -76,23 +70,26 @@ class Checkpoints {
     options_.ranks ? options_.ranks->together(mine) : mine();
   }
 
-  const Run& run_;
+  const Result& result_;
   const Options& options_;
-  const record::PulseMetadata& metadata_;
-  const WriteRun& write_run_;
   Clock::time_point written_ = Clock::now();
   double cost_ = 0;  ///< seconds that the last checkpoint took
 };
 
-/// Continues the run of `result` until its end, or until `options.after_step` returns true. It writes the file, of
-/// about `bytes`, at the start, so that a bad path or a full disk fails before the work. It writes again from time to
-/// time, and when the run stops. An existing file at the output is replaced only at the end of the run. Returns whether
-/// the run has reached its end; then the metadata have its warnings. \throws NumericsError, after writing the results
-/// so far; FileError.
-template <class Result>
-bool carry_out(Result& result, const Options& options, double bytes, const WriteRun& write_run) {
-  auto& run = *result.run;
-  Checkpoints checkpoints(run, options, result.metadata, write_run);
+/// Warnings of a finished run that follow from its plan.
+std::vector<std::string> notes_on_results(const Plan& plan) {
+  if (plan.solver != scenario::SolverKind::plane_direct || plan.scenario.chain.scale) return {};
+  const double scale = scenario::scale_of_lines(plan.scenario);
+  if (!(scale > 1)) return {};
+  return {"chain.scale is not given. At scale " + digits(scale) +
+          " the largest initial slip has 20 dislocation lines; a larger one brings results closer to those of many "
+          "lines"};
+}
+
+/// Continues to the end, or until it is stopped. Returns whether the run has reached its end.
+bool go(const Result& result, const Options& options, double bytes) {
+  output::Run& run = *result.run;
+  Checkpoints checkpoints(result, options);
   checkpoints.require_disk_space(bytes);
   if (!options.checkpoint && !options.output.replaces()) checkpoints.write();
   bool reached = false;
@@ -107,8 +104,27 @@ bool carry_out(Result& result, const Options& options, double bytes, const Write
     checkpoints.fail(scenario::in_results(error.what(), result.metadata.units));
   }
   checkpoints.write();
-  if (reached) add_warnings(run.warnings(), result.metadata);  // asks all ranks
   return reached;
+}
+
+}  // namespace
+
+Result carry_out(const Plan& plan, const Options& options) {
+  Result result = begin(plan, options);
+  const long first = result.run->steps();
+  const auto begun = Clock::now();
+  const bool reached = go(result, options, plan.need.disk);
+  const double stepping = seconds_since(begun);
+  if (result.describe) result.describe(result.metadata);
+  if (!reached) return result;
+  add_warnings(result.run->warnings(), result.metadata);  // asks all ranks
+  add_warnings(notes_on_results(plan), result.metadata);
+  result.summary = result.numbers({.stepping = stepping,
+                                   .wall = seconds_since(options.begun),
+                                   .steps = result.run->steps() - first,
+                                   .ranks = options.ranks ? options.ranks->size() : 1,
+                                   .threads = options.threads});
+  return result;
 }
 
 }  // namespace slipfront::run

@@ -1,14 +1,14 @@
 #pragma once
 /// \file
-/// What writing and reading a pulse file must agree on, besides its variables.
+/// What writing and reading the file of a run must agree on, besides its variables.
 
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include "record/files/fnv.hpp"
-#include "record/pulses/pulse_file.hpp"
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/run_file.hpp"
+#include "record/runs/run_variables.hpp"
 
 namespace slipfront::record::layout {
 

@@ -7,9 +7,9 @@
 #include "record/files/seal.hpp"
 #include "record/files/text_file.hpp"
 #include "record/netcdf/netcdf.hpp"
-#include "record/pulses/pulse_file.hpp"
-#include "record/pulses/pulse_layout.hpp"
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/run_file.hpp"
+#include "record/runs/run_layout.hpp"
+#include "record/runs/run_variables.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/plane/quantities.hpp"
 

@@ -1,4 +1,4 @@
-#include "record/pulses/comparison_file.hpp"
+#include "record/runs/comparison_file.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -7,9 +7,9 @@
 
 #include "foundation/math/constants.hpp"
 #include "record/netcdf/netcdf.hpp"
-#include "record/pulses/arrays.hpp"
-#include "record/pulses/cf.hpp"
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/arrays.hpp"
+#include "record/runs/cf.hpp"
+#include "record/runs/run_variables.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -34,7 +34,7 @@ Labels labels_of(const ComparedLevels& levels) {
 }
 
 /// All of the file.
-void fill(Writer& file, const PulseMetadata& metadata, const std::vector<double>& times, const ComparedLevels& levels,
+void fill(Writer& file, const RunMetadata& metadata, const std::vector<double>& times, const ComparedLevels& levels,
           bool finished) {
   const Labels labels = labels_of(levels);
   Levels snapshots;
@@ -58,7 +58,7 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<double>
 
 }  // namespace
 
-void write_comparison(const std::string& path, const PulseMetadata& metadata, const std::vector<double>& times,
+void write_comparison(const std::string& path, const RunMetadata& metadata, const std::vector<double>& times,
                       const ComparedLevels& levels, bool finished) {
   const auto fields = chosen_fields(metadata.variables);
   const std::size_t cells = metadata.x_edges.size() - 1;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "record/pulses/pulse_file.hpp"
+#include "record/runs/run_file.hpp"
 #include "slipfront/description.hpp"
 
 namespace slipfront::record {
@@ -22,7 +22,7 @@ struct ComparedLevel {
 
 /// Writes `path` completely or not at all. Every level must have a snapshot at each of `times`. \throws FileError (one
 /// line: path and reason), InputError for an unknown variable, std::invalid_argument if a snapshot is missing.
-void write_comparison(const std::string& path, const PulseMetadata& metadata, const std::vector<double>& times,
+void write_comparison(const std::string& path, const RunMetadata& metadata, const std::vector<double>& times,
                       const std::vector<ComparedLevel>& levels, bool finished);
 
 }  // namespace slipfront::record

@@ -7,12 +7,14 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "record/netcdf/netcdf.hpp"
-#include "record/pulses/pulse_file.hpp"
+#include "record/runs/run_file.hpp"
 #include "slipfront/description.hpp"
+#include "slipfront/plane/run.hpp"
 
 namespace slipfront::record {
 
@@ -37,16 +39,42 @@ std::vector<double> times_of(const std::vector<output::Snapshot>& snapshots);
 
 /// The variables of a run along a line, or of a comparison `by_level`, where "level" is the first dimension. They refer
 /// to the arguments. \throws InputError if the metadata has an unknown variable.
-std::vector<Array> arrays_of(const PulseMetadata& metadata, const std::vector<double>& times, const Levels& levels,
+std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<double>& times, const Levels& levels,
                              bool by_level);
+
+/// The variables of a run on a plane, which must outlive them.
+std::vector<Array> arrays_of(const plane::Run& run);
+
+/// The values of all items, one after the other. `get` returns the number or the vector of one, or is such a member.
+template <class Items, class Get>
+std::function<std::vector<double>()> values_of(const Items& items, Get get) {
+  return [&items, get] {
+    std::vector<double> values;
+    for (const auto& item : items) {
+      const auto& one = std::invoke(get, item);
+      if constexpr (std::is_same_v<decltype(one), const double&>) {
+        values.push_back(one);
+      } else {
+        if (values.empty()) values.reserve(items.size() * one.size());
+        values.insert(values.end(), one.begin(), one.end());
+      }
+    }
+    return values;
+  };
+}
 
 /// The ids of dimensions by their names, and those of variables.
 struct Defined {
   std::map<std::string_view, int> dimensions;
   std::vector<int> variables;
 };
-Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const PulseMetadata& metadata);
+Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const RunMetadata& metadata);
 /// Writes the values of arrays that `define` has defined.
 void write(netcdf::Writer& file, const Defined& defined, const std::vector<Array>& arrays);
+
+/// Writes the file of a run, completely or not at all, with its saved state. On a plane there is no `checksum`. \throws
+/// FileError (one line: path and reason).
+void write_run(const std::string& path, const RunMetadata& metadata, const std::vector<Array>& arrays,
+               const std::string& state, bool finished, const std::string& checksum = {});
 
 }  // namespace slipfront::record

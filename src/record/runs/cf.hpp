@@ -6,17 +6,17 @@
 #include <vector>
 
 #include "record/netcdf/netcdf.hpp"
-#include "record/pulses/pulse_file.hpp"
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/run_file.hpp"
+#include "record/runs/run_variables.hpp"
 
 namespace slipfront::record::cf {
 
 /// Defines a variable of numbers and its attributes, in the units of `metadata`. Returns its id.
 int reals(netcdf::Writer& file, const Description& about, const std::vector<int>& dimensions,
-          const PulseMetadata& metadata);
+          const RunMetadata& metadata);
 
 /// Writes the attributes of the file. The number in `format` increases when old readers would fail. A scenario that no
 /// attribute can hold is cleaned and truncated.
-void describe_file(netcdf::Writer& file, const PulseMetadata& metadata, const char* format, bool finished);
+void describe_file(netcdf::Writer& file, const RunMetadata& metadata, const char* format, bool finished);
 
 }  // namespace slipfront::record::cf

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The file of a `pulse` run: NetCDF-4 by the CF-1.10 conventions, with the state from which the run can resume.
+/// The file of a run: NetCDF-4 by the CF-1.10 conventions, with the state from which the run can resume.
 
 #include <cstddef>
 #include <optional>
@@ -18,8 +18,8 @@ namespace slipfront::record {
 /// Values of the attribute slipfront_format. Increase a number when old readers would fail.
 inline constexpr const char *pulse_format = "pulse 1", *plane_format = "plane 2";
 
-/// The content of a pulse file in addition to its snapshots.
-struct PulseMetadata {
+/// The content of the file of a run in addition to its snapshots.
+struct RunMetadata {
   std::string title;
   std::string scenario_text;               ///< any bytes; read back unchanged
   std::string version;                     ///< version of slipfront
@@ -56,10 +56,10 @@ std::vector<std::string> pulse_variables();
 /// equal byte by byte, because a file holds neither date nor host. Times must ascend, and profiles must have as many
 /// cells as `x_edges`; fields that are not requested may be empty. `snapshots` may be empty. \throws FileError (one
 /// line: path and reason), InputError for an unknown variable, std::invalid_argument for wrong times or profiles.
-void write_pulse(const std::string& path, const PulseMetadata& metadata, const std::vector<output::Snapshot>& snapshots,
+void write_pulse(const std::string& path, const RunMetadata& metadata, const std::vector<output::Snapshot>& snapshots,
                  const std::string& solver_state, bool finished);
 
-/// Reads a file by write_pulse or, with the format plane_format, by write_plane, with every bit as it was written.
+/// Reads a file by write_pulse or, with the format plane_format, of a run on a plane, with every bit as it was written.
 /// \throws FileError if the file is missing, not by slipfront, truncated, damaged, or changed by another program.
 Checkpoint read_checkpoint(const std::string& path, const std::string& format = pulse_format);
 

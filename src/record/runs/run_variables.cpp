@@ -1,4 +1,4 @@
-#include "record/pulses/pulse_variables.hpp"
+#include "record/runs/run_variables.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The variables of a pulse file over time and x, one line each. Those over time are output::scalars().
+/// The variables of a run along a line over time and x, one line each. Those over time are output::scalars().
 
 #include <span>
 #include <string>
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "record/pulses/pulse_file.hpp"
+#include "record/runs/run_file.hpp"
 #include "slipfront/description.hpp"
 #include "slipfront/output/quantities.hpp"
 #include "slipfront/output/snapshot.hpp"
@@ -16,7 +16,7 @@
 namespace slipfront::record {
 
 /// Names and texts of the attributes of a file. `format` is the value of its slipfront_format.
-std::vector<std::pair<std::string, std::string>> file_attributes(const PulseMetadata& metadata,
+std::vector<std::pair<std::string, std::string>> file_attributes(const RunMetadata& metadata,
                                                                  const std::string& format);
 /// The attribute `long_name` of a variable in SI units.
 std::string long_name_of(const Description& about, const medium::UnitInSi& unit);
