@@ -41,4 +41,11 @@ TableNotes read_events(std::string_view text, const std::string& file, const Sin
   return {};
 }
 
+TableDescription describe_table(std::string_view text, const std::string& file, const TableOptions& options) {
+  refuse_other_kinds(text, file, ReadAs::events);
+  if (&format_of(text, file) != &csv_format)
+    throw InputError({.file = file, .problem = "not a table", .allowed = "a table with columns (CSV)"});
+  return describe_csv(text, file, options);
+}
+
 }  // namespace slipfront::catalogue

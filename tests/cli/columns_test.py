@@ -49,6 +49,7 @@ class Columns(CommandLine):
         self.refused(2, "columns", table, "-o", table, says=["a file other than those read"])
         self.refused(2, "columns", self.file("m.xlsx", "PK\x03\x04"), says=["this is an Excel workbook"])
         self.refused(2, "columns", self.file("e.csv", ""), says=["empty"])
+        self.refused(2, "columns", os.path.join(SOURCE, "cases", "ets.toml"), says=["ets.toml: not a table; allowed: a table with columns (CSV)"])
         self.refused(3, "columns", "/nowhere.csv", says=["/nowhere.csv"])
         self.assertEqual(run("columns").returncode, 2)
 

@@ -141,7 +141,7 @@ bool CsvTable::describes_subfaults() const {
   std::set<std::string_view> words;  // meanings of the first words of the titles
   for (const Column& c : layout_.columns) {
     const std::string_view title = trimmed(c.title), word = title.substr(0, title.find_first_of(" _([,.:\t\n"));
-    words.insert(meaning_of(small_letters(word), Word::subfault));
+    words.insert(meaning_of(small_letters(word), Word::patch));
     if (c.key && c.key->name == "slip") words.insert("slip");
     for (const char* text : {"name", "date", "year", "kind"})
       if (c.text == text) return false;
@@ -259,8 +259,7 @@ TableNotes read_csv(std::string_view text, const std::string& file, const Sink& 
   });
 }
 
-TableDescription describe_table(std::string_view text, const std::string& file, const TableOptions& options) {
-  refuse_other_kinds(text, file, ReadAs::events);
+TableDescription describe_csv(std::string_view text, const std::string& file, const TableOptions& options) {
   return with_table(text, file, options, [](const CsvTable& table) { return table.description(); });
 }
 

@@ -15,21 +15,7 @@
 namespace slipfront::catalogue {
 
 /// The kinds of words in titles and cells.
-enum class Word {
-  quantity,
-  text,
-  unused,
-  neutral,
-  physical,
-  about,
-  qualifier,
-  range,
-  error,
-  above,
-  below,
-  subfault,
-  absent
-};
+enum class Word { quantity, text, unused, neutral, physical, about, prefix, range, error, above, below, patch, absent };
 
 /// The meaning of a word or of words without blanks, in small letters. For an error, it is the number of standard
 /// deviations. Empty if the word is not of this kind.
@@ -111,7 +97,7 @@ std::string map_text(const TableDescription& table, const ColumnMap& map);
 
 /// The position of the header in a table, and the form of its rows.
 struct Layout {
-  char header_separator = ',', separator = ',';
+  char separator = ',';  ///< between the cells of a row; ' ' for any number of blanks
   bool decimal_comma = false;
   std::size_t header_line = 0;      ///< 0 if no line has titles
   std::size_t last_head_line = 0;   ///< line of the header, or of the units below it; the rows follow

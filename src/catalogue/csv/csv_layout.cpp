@@ -57,23 +57,19 @@ std::vector<Record> records_of(std::string_view head, char separator, std::size_
   const std::string tabbed = by_blanks ? with_tabs(head) : "";
   const RecordOptions options{.separator = by_blanks ? '\t' : separator};
   RecordOptions skipping = options;
+  std::size_t comment = 0;  // line of the comment whose cells are taken
+  const auto take = [&](std::vector<std::string>&& cells, std::size_t line) {
+    records.push_back({std::move(cells), comment > 0 ? comment : line, comment > 0});
+  };
   skipping.skip = [&](std::string_view line, std::size_t number) {
     if (number <= skip_lines) return true;
     if (!is_comment(line)) return false;
-    for_each_record(
-        without_sign(line, separator),
-        [&](std::vector<std::string>&& cells, std::size_t) {
-          records.push_back({std::move(cells), number, true});
-        },
-        options);
+    comment = number;
+    for_each_record(without_sign(line, separator), take, options);
+    comment = 0;
     return true;
   };
-  for_each_record(
-      by_blanks ? tabbed : head,
-      [&](std::vector<std::string>&& cells, std::size_t line) {
-        records.push_back({std::move(cells), line, false});
-      },
-      skipping);
+  for_each_record(by_blanks ? tabbed : head, take, skipping);
   return records;
 }
 
@@ -224,7 +220,7 @@ Layout find_layout(std::string_view text, const ColumnMap& map) {
   if (best.known == 0) best = without_header(head, all, map);
   if (best.records.empty()) return layout;
   const Record& header = best.records[best.index];
-  layout.header_separator = layout.separator = best.separator;
+  layout.separator = best.separator;
   layout.titles = header.cells;
   if (best.known == 0 && header.has(begins_like_number)) {
     layout.last_head_line = header.line - 1;
@@ -236,10 +232,12 @@ Layout find_layout(std::string_view text, const ColumnMap& map) {
   if (layout.header_line == 0 || best.index + 1 == best.records.size()) return layout;
   const Record& below = best.records[best.index + 1];
   if (take_units(below, layout.columns)) layout.last_head_line = below.line;
-  // The rows may have another separator than the header.
+  // The rows may have another separator than the header, if they do not have that of the header at all.
+  const Record* undivided = row_below(best.records, layout.last_head_line);
+  if (!undivided || undivided->cells.size() > 1 || header.width() < 2) return layout;
   for (const char separator : all) {
     const auto records = records_of(head, separator, map.skip_lines);
-    const Record* row = best.matches ? nullptr : row_below(records, layout.last_head_line);
+    const Record* row = row_below(records, layout.last_head_line);
     if (!row || row->width() != header.width()) continue;
     layout.separator = separator;
     break;

@@ -22,7 +22,8 @@ constexpr std::pair<std::string_view, Role> prefixes[] = {{"error above of ", Ro
                                                           {"source of ", Role::how},
                                                           {"", Role::value}};
 
-constexpr std::string_view texts[] = {"ignore", "name", "date", "year", "month", "day", "start", "end", "study"};
+constexpr std::string_view texts[] = {"ignore", "name",  "date", "year",       "month",
+                                      "day",    "start", "end",  "identifier", "study"};
 
 std::vector<std::string_view> meanings(const std::vector<Key>& keys) {
   std::vector<std::string_view> all(std::begin(texts), std::end(texts));

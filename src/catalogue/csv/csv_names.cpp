@@ -28,8 +28,8 @@ constexpr Name names[] = {
      "tauafter shearstressafter stressafter residualshearstress residualstress finalshearstress finalstress"},
     {Word::quantity, "shear_modulus", "rigidity"},
     {Word::quantity, "poisson_ratio", "poissonsratio poisson'sratio"},
-    {Word::quantity, "s_wave_speed", "swavevelocity shearwavevelocity shearwavespeed vsathypocentre vsathypocenter"},
-    {Word::quantity, "p_wave_speed", "pwavevelocity vpathypocentre vpathypocenter"},
+    {Word::quantity, "s_wave_speed", "swavevelocity shearwavevelocity shearwavespeed vsathypocentre vsathypocenter vs"},
+    {Word::quantity, "p_wave_speed", "pwavevelocity vpathypocentre vpathypocenter vp"},
     {Word::quantity, "moment", "m0 mo scalarmoment seismicmoment"},
     {Word::quantity, "moment_magnitude", "mw magnitudemw"},
     {Word::quantity, "rupture_length", "length faultlength alongstrikelength lengthalongstrike"},
@@ -65,9 +65,9 @@ constexpr Name names[] = {
      "viscosity"},
     {Word::about, "how", "how"},
     {Word::about, "ignore", "type source method note notes"},
-    {Word::qualifier, "largest", "peak max maximum"},
-    {Word::qualifier, "apparent", "apparent"},
-    {Word::qualifier, "static", "static"},
+    {Word::prefix, "largest", "peak max maximum"},
+    {Word::prefix, "apparent", "apparent"},
+    {Word::prefix, "static", "static"},
     {Word::range, "low", "min minimum"},
     {Word::range, "high", "max maximum"},
     {Word::error, "1",
@@ -78,12 +78,12 @@ constexpr Name names[] = {
     {Word::above, "of an error", "upper up pos"},
     {Word::below, "always", "minus -"},
     {Word::below, "of an error", "lower low neg"},
-    {Word::subfault, "slip", "slip strikeslip dipslip"},
-    {Word::subfault, "slip of a patch", "ss ds"},
-    {Word::subfault, "x", "lat latitude x x==ew x==ns easting east"},
-    {Word::subfault, "y", "lon long longitude lng y y==ns y==ew northing north"},
-    {Word::subfault, "depth", "depth dep z top"},
-    {Word::subfault, "patch", "rake strike dip trup rise segment subfault patch length rupture tini"},
+    {Word::patch, "slip", "slip strikeslip dipslip"},
+    {Word::patch, "slip of a patch", "ss ds"},
+    {Word::patch, "x", "lat latitude x x==ew x==ns easting east"},
+    {Word::patch, "y", "lon long longitude lng y y==ns y==ew northing north"},
+    {Word::patch, "depth", "depth dep z top"},
+    {Word::patch, "patch", "rake strike dip trup rise segment subfault patch length rupture tini"},
     {Word::absent, "absent",
      "nan -nan n/a na n.a. null none - -- --- ? * n.d. unknown ... \xE2\x80\x93 \xE2\x80\x94 \xE2\x80\xA6 \xC2\xA0 "
      "\xE2\x88\x92"},
@@ -101,7 +101,6 @@ Index index_of_names() {
     }
   for (const auto* keys : {&quantity_keys(), &front_keys()})
     for (const Key& key : *keys) {
-      if (key.name == "friction_coefficient") continue;  // in publications it is not C, so only the exact title counts
       std::string joined(key.name);
       joined.erase(std::remove(joined.begin(), joined.end(), '_'), joined.end());
       index.emplace(std::pair(Word::quantity, std::move(joined)), key.name);

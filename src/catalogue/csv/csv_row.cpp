@@ -121,13 +121,18 @@ void Row::take_further(const Column& column, const std::string& cell) {
 /// Reads a cell; what is wrong with it gets the column's title.
 void Row::take(const Column& column, const std::string& cell) {
   try {
-    if (column.role == Role::value) {
-      store(o_, *column.key, with_point(cell, layout_.decimal_comma), column.unit);
+    const bool has_numbers = column.is_quantity() || column.is_error();
+    const std::string text = has_numbers ? with_point(cell, layout_.decimal_comma) : cell;
+    const bool lacks_unit = has_numbers && column.unit.empty() && column.key->dimension != medium::Dimension::ratio;
+    if (column.role == Role::value && lacks_unit && is_auxiliary(*column.key) && medium::number(text)) {
+      o_.warnings.push_back("column '" + column.title + "' has no unit: not used");
+    } else if (column.role == Role::value) {
+      store(o_, *column.key, text, column.unit);
       if (!column.assumption.empty()) o_.warnings.push_back(column.assumption);
       if (column.is_largest && column.key->name == "slip_velocity") is_peak_ = true;
       if (column.is_static) o_.stress_drop_is = StressDropIs::static_drop;
-    } else if (column.is_quantity() || column.is_error()) {
-      take_further(column, with_point(cell, layout_.decimal_comma));
+    } else if (has_numbers) {
+      take_further(column, text);
     } else if (column.role == Role::how) {
       if (cell.find("computed") != std::string::npos || cell.find("apparent") != std::string::npos)
         o_.warnings.push_back(std::string(column.key->name) + ": " + cell);

@@ -108,22 +108,13 @@ std::size_t find_name(const Title& t, const std::vector<Key>& keys, Column& colu
     begin = t.small[1] == "of" || t.small[1] == "in" ? 2 : 1;
   }
   for (; begin < t.small.size() && !(column.key = name_at(t, begin, end, keys)); ++begin) {
-    if (const auto meaning = meaning_of(t.small[begin], Word::qualifier); !meaning.empty())
+    if (const auto meaning = meaning_of(t.small[begin], Word::prefix); !meaning.empty())
       qualifier = meaning;
     else if (!is(t.small[begin], Word::neutral))
       break;
   }
-  if (!column.key && t.words.size() >= 2 && t.words[0] == "friction" && t.words[1] == "coefficient") {
-    column.key = find_key("friction_coefficient", keys);
-    end = 2;
-  }
-  // "Vs (km/s)" and "Vp (km/s)" are wave speeds. With another unit, "Vs" may be a slip velocity.
-  const bool may_be_wave =
-      !column.key && t.small.size() == 1 && t.groups.size() == 1 && medium::plain_unit(t.groups[0]) == "km/s";
-  if (may_be_wave && (t.small[0] == "vs" || t.small[0] == "vp")) {
-    column.key = find_key(t.small[0] == "vs" ? "s_wave_speed" : "p_wave_speed", keys);
-    end = 1;
-  }
+  // In publications a friction coefficient is not C, so only the exact title counts.
+  if (column.key && column.key->name == "friction_coefficient" && t.words[0] != "friction") column.key = nullptr;
   if (!column.key || qualifier.empty()) return end;
   const std::string_view name = column.key->name;
   column.is_largest = qualifier == "largest" && (name == "slip" || name == "slip_velocity");
@@ -135,36 +126,27 @@ std::size_t find_name(const Title& t, const std::vector<Key>& keys, Column& colu
   return end;
 }
 
-/// Takes a word about an error: "err", "sd", "plus", "upper", ... Returns whether it was one.
-bool take_error_word(const std::string& word, Column& column) {
-  const auto applies = [&](Word side) {
-    const auto meaning = meaning_of(word, side);
-    return meaning == "always" || (!meaning.empty() && column.is_error());
-  };
-  if (const double deviations = deviations_of(word); deviations > 0) {
-    if (!column.is_error()) column.role = Role::error;
-    column.deviations = deviations;
-  } else if (applies(Word::above)) {
-    column.role = Role::error_above;
-  } else if (applies(Word::below)) {
-    column.role = Role::error_below;
-  } else {
-    return false;
-  }
-  return true;
-}
-
-/// Reads the words behind the name of a quantity. Returns the others, which may be the unit.
+/// Reads the words behind the name of a quantity, such as "err", "plus" or "max". Returns the others, which may be the
+/// unit.
 std::vector<std::string> read_suffix(const Title& t, std::size_t begin, Column& column) {
   std::vector<std::string> others;
   for (std::size_t at = begin; at < t.small.size(); ++at) {
     const std::string& word = t.small[at];
-    if (take_error_word(word, column)) continue;
-    const auto end = meaning_of(word, Word::range);
-    if (!end.empty() && others.empty() && column.role == Role::value && column.key->measured)
-      column.role = end == "low" ? Role::low : Role::high;
-    else if (word != "in" && word != "of")
+    const auto range = meaning_of(word, Word::range), above = meaning_of(word, Word::above),
+               below = meaning_of(word, Word::below);
+    const bool is_error = column.is_error();
+    if (const double deviations = deviations_of(word); deviations > 0) {
+      if (!is_error) column.role = Role::error;
+      column.deviations = deviations;
+    } else if (above == "always" || (is_error && !above.empty())) {
+      column.role = Role::error_above;
+    } else if (below == "always" || (is_error && !below.empty())) {
+      column.role = Role::error_below;
+    } else if (!range.empty() && others.empty() && column.role == Role::value && column.key->measured) {
+      column.role = range == "low" ? Role::low : Role::high;
+    } else if (word != "in" && word != "of") {
       others.push_back(t.words[at]);
+    }
   }
   return others;
 }
@@ -209,8 +191,11 @@ bool read_unit(const Title& t, const std::vector<std::string>& words, Column& co
 bool is_ambiguous(const Title& t, const Column& column) {
   const std::string name = t.joined();
   if (name == "mo" || name == "m0") return column.unit.empty();
+  const auto has = [&](const char* part) { return name.find(part) != std::string::npos; };
+  const bool is_wave = column.key->name == "s_wave_speed" || column.key->name == "p_wave_speed";
+  if (is_wave && (has("vs") || has("vp")) && !has("hypocent")) return column.unit != "km/s";  // Vs may be of slip
   const bool is_long_term = column.unit == "mm/yr" || column.unit == "mm/year" || column.unit == "mm/a";
-  return column.key->name == "slip_velocity" && name.find("rate") != std::string::npos && is_long_term;
+  return column.key->name == "slip_velocity" && has("rate") && is_long_term;
 }
 
 /// The complaint about a title that nearly names a quantity.
