@@ -7,6 +7,7 @@ using AddCommand = Runner(CommandLine& program);
   COMMAND(relations)                \
   COMMAND(riemann)                  \
   COMMAND(event)                    \
+  COMMAND(columns)                  \
   COMMAND(pulse)                    \
   COMMAND(chain)                    \
   COMMAND(compare)                  \

@@ -46,15 +46,6 @@ Measured parse(const std::string& text, const std::string& dimension, const std:
   return measured;
 }
 
-void check_unit(const std::string& unit, const std::string& dimension, const std::string& file, std::size_t line,
-                const std::string& column) {
-  try {
-    medium::unit_factor(unit, dimension_named(dimension));
-  } catch (const InputError& error) {
-    throw_at({file, line, column}, error.complaint());
-  }
-}
-
 [[noreturn]] void refuse(const std::string& file, std::size_t line, const std::string& column, const std::string& value,
                          const std::string& problem, const std::string& allowed) {
   throw InputError({.file = file, .line = line, .key = column, .value = value, .problem = problem, .allowed = allowed});
@@ -74,6 +65,5 @@ void bind_measured(py::module_& m) {
       .def("share_below", py::vectorize(&Measured::share_below))
       .def("likelihood", py::vectorize(&Measured::likelihood));
   m.def("parse_measured", parse);
-  m.def("check_unit", check_unit);
   m.def("refuse", refuse);
 }

@@ -11,6 +11,7 @@
 #include "bindings.hpp"
 #include "record/files/text_file.hpp"
 #include "run/catalogue.hpp"
+#include "slipfront/catalogue/read.hpp"
 
 /// The observations of events as they were read, before any theory is applied.
 
@@ -42,15 +43,19 @@ struct Quantity {
   const char* name;
   std::optional<Measured> Observation::*member;
 };
-constexpr std::array<Quantity, 4> observables = {{{"rupture_velocity", &Observation::rupture_velocity_m_s},
+constexpr std::array<Quantity, 8> observables = {{{"rupture_velocity", &Observation::rupture_velocity_m_s},
                                                   {"slip", &Observation::slip},
                                                   {"rise_time", &Observation::rise_time},
-                                                  {"duration", &Observation::duration}}};
+                                                  {"duration", &Observation::duration},
+                                                  {"length", &Observation::rupture_length},
+                                                  {"width", &Observation::rupture_width},
+                                                  {"moment", &Observation::moment},
+                                                  {"moment_magnitude", &Observation::moment_magnitude}}};
 
 py::dict row_of(const catalogue::Entry& entry, const medium::Defaults& defaults) {
   const Observation& o = entry.observation;
   py::dict row;
-  row["name"] = o.name, row["kind"] = o.kind, row["citation"] = o.citation, row["line"] = o.line;
+  row["name"] = o.name, row["kind"] = o.kind, row["citation"] = o.citation, row["study"] = o.study, row["line"] = o.line;
   row["front_threshold"] = o.front_threshold;
   row["rupture_velocity_is"] = catalogue::name_of(o.rupture_velocity_is);
   for (const Quantity& q : observables) {
@@ -71,8 +76,36 @@ py::dict row_of(const catalogue::Entry& entry, const medium::Defaults& defaults)
 
 using Source = std::tuple<std::string, std::string, bool>;  // as in event.cpp
 
-py::list observations(const std::vector<Source>& sources, const std::array<std::string, 3>& medium) {
+/// How a table is read by a map: its file, or its text.
+catalogue::TableOptions table_options(const std::string& map, const std::string& map_file) {
+  if (!map_file.empty()) return {.map = record::read_text(map_file), .map_file = map_file};
+  return {.map = map, .map_file = "columns"};
+}
+
+/// The fronts of a laboratory table: name, line, error, and the measured quantities. Also the titles of the columns that
+/// are not used, and notes.
+py::tuple fronts(const std::string& text, const std::string& file, const std::array<std::string, 2>& map,
+                 const std::vector<std::string>& required) {
+  catalogue::TableOptions options = table_options(map[0], map[1]);
+  options.of_fronts = true;
+  options.required = required;
+  py::list rows;
+  const catalogue::TableNotes notes = catalogue::read_csv(
+      text, file,
+      [&](catalogue::Entry&& entry) {
+        const Observation& o = entry.observation;
+        rows.append(py::make_tuple(o.name, o.line, entry.error ? one_line(*entry.error) : "", o.shear_stress,
+                                   o.normal_stress, o.rupture_velocity_m_s, o.stress_drop));
+      },
+      options);
+  return py::make_tuple(rows, notes.ignored, notes.notes);
+}
+
+py::list observations(const std::vector<Source>& sources, const std::array<std::string, 3>& medium,
+                      const std::array<std::string, 2>& map) {
   run::CatalogueScenario scenario;
+  scenario.table = table_options(map[0], map[1]);
+  catalogue::check_column_map(scenario.table);
   for (const auto& [content, name, is_path] : sources)
     scenario.texts.push_back({name, is_path ? record::read_text(name) : content});
   scenario.medium = {medium[0], medium[1], medium[2]};
@@ -97,6 +130,7 @@ std::pair<double, double> measured(const std::string& text, const std::string& d
 }  // namespace
 
 void bind_observations(py::module_& m) {
-  m.def("observations", observations);
+  m.def("observations", observations, py::arg(), py::arg(), py::arg("map") = std::array<std::string, 2>{});
+  m.def("fronts", fronts);
   m.def("measured", measured);
 }

@@ -46,6 +46,11 @@ class Arguments(argparse.ArgumentParser):
         raise ValueError(f"{message}; see {self.prog} --help")
 
 
+def add_columns(parser):
+    """Adds --columns."""
+    parser.add_argument("--columns", metavar="MAP.toml", help="TOML file that states what the columns of a table mean, as for slipfront event; slipfront columns makes one")
+
+
 def add_units(parser, default="default if the scenario has values with units outside of [medium]"):
     """Adds --si and --dimensionless."""
     units = parser.add_mutually_exclusive_group()

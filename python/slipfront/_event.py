@@ -63,6 +63,11 @@ def _source(event, name):
     raise InputError(f"{name}: a {type(event).__name__}; allowed: a path, text, a dict, a DataFrame or a list of these")
 
 
+def column_map(columns):
+    """Returns (TOML text, file) of a map of columns as the user gives it. At most one of them is not empty."""
+    return (to_toml(columns), "") if isinstance(columns, Mapping) else ("", path("columns", columns))
+
+
 def _whole(name, value):
     if value is None or (isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**63):
         return value
@@ -165,14 +170,14 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
                else [_source(events, "events")])
     if not sources:
         raise InputError("events: the list is empty; allowed: one event or more")
-    is_map = isinstance(columns, Mapping)
+    map_text, map_file = column_map(columns)
     with showing(progress) as call:
         found = _slipfront.event(sources, {
             "p_wave_speed": _default(p_wave_speed), "poisson_ratio": _default(poisson_ratio), "shear_modulus": _default(shear_modulus),
             "samples": _whole("samples", samples), "seed": _number_of("seed", seed), "closure": str(closure), "pulse": bool(pulse),
             "draws": _number_of("draws", draws), "output": output_path(output, events, columns), "resume": path("resume", resume), "progress": call,
-            "threads": thread_count(threads), "columns": to_toml(columns) if is_map else "",
-            "columns_file": "" if is_map else path("columns", columns), "strict": bool(strict)})
+            "threads": thread_count(threads), "columns": map_text, "columns_file": map_file,
+            "strict": bool(strict)})
     texts = {name: (values, long_name) for name, values, long_name in found["texts"]}
     errors = texts["error"][0]
     if errors and all(errors):

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from . import _slipfront
 from ._dataset import dataset
-from ._event import _default, _shipped, _source
+from ._event import _default, _shipped, _source, column_map
 from ._files import write_dataset
 from ._numbers import np
 from ._optional import import_optional
@@ -53,20 +53,16 @@ def _prior(changes):
     return priors.Prior(changes)
 
 
-def _read(events, kind, medium, errors):
+def _read(events, kind, medium, errors, columns=None):
     """Returns dicts of the events that can be used, and (name, reason) of each of the others."""
     items = events if isinstance(events, (list, tuple)) else [_shipped if events is None else events]
     found, left_out = [], []
     for i, item in enumerate(items):
         text, name, is_path = _source(item, f"events[{i}]" if len(items) > 1 else "events")
-        if is_path:
-            text = _slipfront.read_text(name)
-        quantities, studies = rows.further(text, name) if name.endswith(".csv") or "\n" in text else ({}, {})
-        for row in _slipfront.observations([(text, name, False)], medium):
+        for row in _slipfront.observations([(text, name, is_path)], medium, column_map(columns)):
             if kind is not None and row["kind"] != kind:
                 continue
-            row["citation"] = studies.get(row["line"], row["citation"])
-            read = rows.read_row(row, quantities.get(row["line"], {}), errors)
+            read = rows.read_row(row, errors)
             if isinstance(read, str):
                 left_out.append((row["name"], read))
             else:
@@ -110,7 +106,7 @@ def _result(likelihood, draws, left_out, studies, seed, attributes):
 
 
 def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smallest_slip=None, smallest_moment=None, velocity_error=1.2, size_error=1.5,
-               p_wave_speed=None, poisson_ratio=None, shear_modulus=None, steps=400, seed=1, output=None, progress=None):
+               p_wave_speed=None, poisson_ratio=None, shear_modulus=None, steps=400, seed=1, output=None, progress=None, columns=None):
     """Infers what the events of a catalogue have in common: stress, effective normal stress and friction, and how much they scatter.
 
     This is a hierarchical model (docs/population.md). Stress, normal stress and friction over spacing are lognormal between events. Each
@@ -120,8 +116,8 @@ def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smalles
     Parameters
     ----------
     events : path, text, dict, DataFrame or list of these, optional
-        Events as in `event`. A CSV may have further columns: study (else citation), length, width, moment_N_m and Mw. The default is the
-        catalogue that comes with slipfront.
+        Events as in `event`. The model also uses length, width, moment, Mw and study (else citation). The default is the catalogue that
+        comes with slipfront.
     kind : str, optional
         Use only events whose column `kind` is this text, such as "earthquake".
     prior : dict, optional
@@ -143,6 +139,8 @@ def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smalles
         NetCDF file to write.
     progress : callable, optional
         Called with (steps done, all steps).
+    columns : path or dict, optional
+        What the columns of a table mean, as in `event`.
 
     Returns
     -------
@@ -170,7 +168,7 @@ def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smalles
             raise InputError(f"{name} = '{shown(value)}': out of range; allowed: a whole number from {20 if name == 'steps' else 0}")
     if progress is not None and not callable(progress):
         raise InputError(f"progress: a {type(progress).__name__}; allowed: a function of the steps done and all steps")
-    file = output_path(output, events)
+    file = output_path(output, events, columns)
     import_optional("emcee")
     errors = {"velocity": math.log(_positive("velocity_error", velocity_error, 1.0)), "size": math.log(_positive("size_error", size_error, 1.0))}
     limits = {}
@@ -182,7 +180,7 @@ def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smalles
         raise InputError("smallest_slip and smallest_moment: both are given; allowed: one of them")
     chosen = _prior(prior)
     log_hardness = _measure("hardness", hardness, "pressure", "Pa")
-    found, left_out = _read(events, kind, [_default(p_wave_speed), _default(poisson_ratio), _default(shear_modulus)], errors)
+    found, left_out = _read(events, kind, [_default(p_wave_speed), _default(poisson_ratio), _default(shear_modulus)], errors, columns)
     began = time.monotonic()
     likelihood = Likelihood(rows.arrays(found, limits), log_hardness, chosen)
     draws = sample.sample(likelihood, steps, seed, progress)

@@ -179,7 +179,7 @@ def _result_variables(analysis, y_shares, scatter_shares, modulus, draws):
 
 
 def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p_wave_speed=None, s_wave_speed=None, prior=(1e-3, 10.0), scatter_prior=(1e-3, 1.0),
-               draws=1000, seed=1, strict=False, output=None):
+               draws=1000, seed=1, strict=False, output=None, columns=None, normal_stress=None):
     """Computes the penetration hardness over the shear modulus from fronts in the laboratory.
 
     The velocity of a front is a function of Sigma- = pi (sigma_p / mu) (tau / sigma_N) / A_plastic (Eqs. 8-10, no friction). All fronts have one
@@ -188,8 +188,9 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
     Parameters
     ----------
     table : path, text, dict of columns or DataFrame
-        CSV with the columns tau (or shear_stress), normal_stress, front_velocity (or rupture_velocity) and, if known, stress_drop and name. The unit
-        is in the title, as in `tau [MPa]`, or in the cell, as in `1.2 +- 0.1 MPa`. Errors are those of `slipfront.event`.
+        CSV with the columns tau (or shear_stress), normal_stress, front_velocity (or rupture_velocity) and, if known, name and stress_drop, or the
+        stress after the front in its place (shear_stress_after). The unit is in the title, as in `tau [MPa]`, or in the cell, as in
+        `1.2 +- 0.1 MPa`. Errors are those of `slipfront.event`. A stress drop without an error is not used.
     poisson_ratio, shear_modulus, density, p_wave_speed, s_wave_speed : str or float
         Constants of the material in SI units, or texts such as "2 GPa". The speed c needs poisson_ratio, and p_wave_speed, s_wave_speed, or
         shear_modulus with density.
@@ -205,6 +206,11 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
         Whether a bad row is an error. By default the other rows are used, and the attribute `errors` has the reasons.
     output : path, optional
         NetCDF file to write.
+    columns : path or dict, optional
+        What the columns of the table mean: the map of `slipfront.event`, with the quantities shear_stress, shear_stress_after, normal_stress,
+        rupture_velocity and stress_drop.
+    normal_stress : str or float, optional
+        Normal stress of fronts for which the table has none, such as "2 MPa" or a number in Pa.
 
     Returns
     -------
@@ -227,8 +233,8 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
     speed, nu, modulus = _medium({"poisson_ratio": poisson_ratio, "shear_modulus": shear_modulus, "density": density, "p_wave_speed": p_wave_speed,
                                   "s_wave_speed": s_wave_speed})
     prior, scatter_prior = _range("prior", prior, 1e-12, 1e12), _range("scatter_prior", scatter_prior, 1e-6, 10)
-    draws, seed, file = _count("draws", draws, 1), _count("seed", seed, 0), output_path(output, table)
-    found = _laboratory_table.read(table, strict)
+    draws, seed, file = _count("draws", draws, 1), _count("seed", seed, 0), output_path(output, table, columns)
+    found = _laboratory_table.read(table, strict, columns, normal_stress)
     plastic = float(laws.plastic_contact_ratio(nu))
     analysis = _Analysis(found.fronts, speed, plastic, prior, scatter_prior, found.file)
     random = np.random.default_rng(seed)
@@ -241,7 +247,7 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
     if any(front.stress_drop for front in found.fronts):
         variables.update(_without_drops(found.fronts, speed, plastic, prior, scatter_prior))
     data = dataset(variables, _coordinates(ratios), {**_attributes(found, analysis, (speed, nu, modulus), prior, scatter_prior),
-                                                     "warnings": "\n".join(_warnings(y_shares, scatter_shares, prior, scatter_prior)
+                                                     "warnings": "\n".join(found.notes + _warnings(y_shares, scatter_shares, prior, scatter_prior)
                                                                            + _contradictions(variables, np.exp(scatter_shares)))})
     if file:
         write_dataset(data, file)

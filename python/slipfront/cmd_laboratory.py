@@ -4,7 +4,7 @@ import argparse
 import json
 import sys
 
-from ._arguments import Arguments, netcdf_name, put
+from ._arguments import Arguments, add_columns, netcdf_name, put
 from ._messages import DONE, INPUT, complain
 from ._shown import shown
 from ._table import table
@@ -36,7 +36,7 @@ def interval(text):
 def arguments(argv):
     """Returns the options of the command line."""
     parser = Arguments("laboratory", "Computes the penetration hardness over the shear modulus from the velocities of fronts, as slipfront.laboratory does in Python. TABLE has "
-                       "the columns tau, normal_stress, front_velocity and, if known, stress_drop and name, with units in the titles or cells. A row that cannot be read is "
+                       "the columns tau, normal_stress, front_velocity and, if known, stress_drop (or shear_stress_after) and name, with units in the titles or cells. A row that cannot be read is "
                        "named and left out, and the exit code is 2.",
                        ["slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --s-wave-speed \"1300 m/s\" -o fronts.nc",
                         "slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --shear-modulus \"2 GPa\" --density \"1180 kg/m3\" --json"])
@@ -44,6 +44,8 @@ def arguments(argv):
     parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name, help="NetCDF file to write; slipfront plot draws it")
     for name, example in (("--poisson-ratio", "0.35"), ("--shear-modulus", "2 GPa"), ("--density", "1180 kg/m3"), ("--p-wave-speed", "2700 m/s"), ("--s-wave-speed", "1300 m/s")):
         parser.add_argument(name, metavar="VALUE", help=f"constant of the material, such as \"{example}\"")
+    parser.add_argument("--normal-stress", metavar="VALUE", help="normal stress of fronts for which the table has none, such as \"2 MPa\"")
+    add_columns(parser)
     parser.add_argument("--prior", metavar="LOW:HIGH", default="0.001:10", help="range of the hardness over modulus, uniform in its logarithm (default: 0.001:10)")
     parser.add_argument("--scatter-prior", metavar="LOW:HIGH", default="0.001:1", help="range of the scatter from front to front, uniform in its logarithm (default: 0.001:1)")
     parser.add_argument("--draws", metavar="N", type=whole, default=1000, help="draws from the posterior in the file (default: 1000)")
@@ -143,7 +145,7 @@ def main(argv) -> int:
 
     data = laboratory(options.table, poisson_ratio=options.poisson_ratio, shear_modulus=options.shear_modulus, density=options.density, p_wave_speed=options.p_wave_speed,
                       s_wave_speed=options.s_wave_speed, prior=options.prior, scatter_prior=options.scatter_prior, draws=options.draws, seed=options.seed,
-                      strict=options.strict, output=options.output)
+                      strict=options.strict, output=options.output, columns=options.columns, normal_stress=options.normal_stress)
     report(data, options)
     sys.stdout.flush()
     errors = lines(data, "errors")

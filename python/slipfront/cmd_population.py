@@ -3,7 +3,7 @@
 import json
 import warnings
 
-from ._arguments import Arguments, netcdf_name, progress, put
+from ._arguments import Arguments, add_columns, netcdf_name, progress, put
 from ._population.priors import NAMES, PARAMETERS
 from ._table import table
 
@@ -29,6 +29,7 @@ def arguments(argv):
     parser.add_argument("--size-error", metavar="FACTOR", type=float, default=1.5, help="one standard deviation of slips and moments without an error (default: 1.5)")
     for name, example in (("p-wave-speed", "6 km/s"), ("poisson-ratio", "0.3"), ("shear-modulus", "30 GPa")):
         parser.add_argument(f"--{name}", metavar="VALUE", help=f"constant of the rock for events that give none (default: {example})")
+    add_columns(parser)
     parser.add_argument("--steps", metavar="N", type=int, default=400, help="steps of each of the 40 walkers (default: 400)")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the draws (default: 1)")
     options = parser.parse_args(argv)
@@ -83,7 +84,7 @@ def main(argv) -> int:
         data = population(options.catalogue or None, kind=options.kind, prior=chosen, hardness=options.hardness, smallest_slip=options.smallest_slip,
                           smallest_moment=options.smallest_moment, velocity_error=options.velocity_error, size_error=options.size_error,
                           p_wave_speed=options.p_wave_speed, poisson_ratio=options.poisson_ratio, shear_modulus=options.shear_modulus, steps=options.steps,
-                          seed=options.seed, output=options.output, progress=lambda done, all_steps: progress(options, f"{done} of {all_steps} steps"))
+                          seed=options.seed, output=options.output, columns=options.columns, progress=lambda done, all_steps: progress(options, f"{done} of {all_steps} steps"))
     progress(options, "")
     if options.json:
         print(json.dumps({"parameters": summary(data), "events": data.name.values.tolist(), "left_out": data.left_out.values.tolist(), "file": options.output,

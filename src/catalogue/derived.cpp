@@ -97,6 +97,19 @@ void derive_rupture_velocity(Observation& o, double speed) {
 
 }  // namespace
 
+void derive_stress_drop(Observation& o) {
+  if (o.stress_drop || !o.shear_stress || !o.shear_stress_after) return;
+  const Measured &before = *o.shear_stress, &after = *o.shear_stress_after;
+  const double drop = before.middle() - after.middle();
+  if (!(drop > 0))
+    throw InputError({.key = "shear_stress_after",
+                      .value = digits(after.middle()) + " Pa",
+                      .problem = "not below the shear stress before",
+                      .allowed = "< " + digits(before.middle()) + " Pa"});
+  const double error = std::hypot(before.middle() * log_error(before), after.middle() * log_error(after));
+  o.stress_drop = error > 0 ? Measured{drop, drop, Shape::normal, error} : Measured{drop, drop};
+}
+
 void derive(Observation& observation, double shear_modulus, double speed) {
   derive_slip(observation, shear_modulus);
   derive_rupture_velocity(observation, speed);

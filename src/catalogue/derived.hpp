@@ -14,4 +14,8 @@ namespace slipfront::catalogue {
 /// `shear_modulus` in Pa; `speed` c in m/s, which an apparent velocity must not reach.
 void derive(Observation& observation, double shear_modulus, double speed);
 
+/// The stress drop of a front in the laboratory from the shear stresses before and after it, if it is not known.
+/// \throws InputError if the stress after it is not the smaller one.
+void derive_stress_drop(Observation& observation);
+
 }  // namespace slipfront::catalogue

@@ -17,6 +17,9 @@ struct Format {
   TableNotes (*read)(std::string_view text, const std::string& file, const Sink& sink, const TableOptions& options);
 };
 
+/// Like describe_table, for a text that is known to be CSV.
+TableDescription describe_csv(std::string_view text, const std::string& file, const TableOptions& options);
+
 /// Returns the first character that is not white space, or 0 if there is none.
 inline char first_character(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");

@@ -34,10 +34,40 @@ const std::vector<Key>& quantity_keys() {
   return keys;
 }
 
-const Key* find_key(std::string_view name) {
-  for (const Key& key : quantity_keys())
+const std::vector<Key>& front_keys() {
+  static const std::vector<Key> keys = {
+      {"shear_stress", medium::Dimension::pressure, &Observation::shear_stress},
+      {"shear_stress_after", medium::Dimension::pressure, &Observation::shear_stress_after},
+      *find_key("normal_stress"),
+      *find_key("rupture_velocity"),
+      *find_key("stress_drop")};
+  return keys;
+}
+
+const Key* find_key(std::string_view name, const std::vector<Key>& keys) {
+  for (const Key& key : keys)
     if (key.name == name) return &key;
   return nullptr;
+}
+
+const std::vector<std::string_view>& text_keys() {
+  static const std::vector<std::string_view> keys = {
+      "name",           "date",           "kind", "citation", "note", "slip_velocity_is", "rupture_velocity_is",
+      "stress_drop_is", "front_threshold"};
+  return keys;
+}
+
+void store_text(Observation& o, std::string_view key, const std::string& text) {
+  if (key == "name") o.name = text;
+  if (key == "date") o.date = text;
+  if (key == "kind") o.kind = text;
+  if (key == "citation") o.citation = text;
+  if (key == "note") o.note = text;
+  if (key == "study") o.study = text;
+  if (key == "slip_velocity_is") o.slip_velocity_is = friction_ratio::measure_named(text);
+  if (key == "rupture_velocity_is") o.rupture_velocity_is = rupture_velocity_meaning(text);
+  if (key == "stress_drop_is") o.stress_drop_is = stress_drop_meaning(text);
+  if (key == "front_threshold") o.front_threshold = parse_front_threshold(text);
 }
 
 void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit) {
@@ -71,6 +101,14 @@ void store(Observation& observation, const Key& key, const Measured& measured, s
     observation.*key.constant = measured.middle();
     if (!measured.is_exact()) observation.uncertain_constants.push_back({key.constant, measured});
   }
+}
+
+std::optional<Measured> value_of(const Observation& o, const Key& key) {
+  if (key.measured) return o.*key.measured;
+  for (const UncertainConstant& c : o.uncertain_constants)
+    if (c.member == key.constant) return c.measured;
+  const auto& constant = o.*key.constant;
+  return constant ? std::optional(Measured{*constant, *constant}) : std::nullopt;
 }
 
 }  // namespace slipfront::catalogue

@@ -18,14 +18,24 @@ struct Key {
   std::optional<double> medium::Constants::*constant = nullptr;  ///< a constant of the medium
 };
 
-/// All quantities; the observed ones come first.
+/// All quantities of events; the observed ones come first.
 const std::vector<Key>& quantity_keys();
-const Key* find_key(std::string_view name);
+/// The quantities of fronts in the laboratory.
+const std::vector<Key>& front_keys();
+const Key* find_key(std::string_view name, const std::vector<Key>& keys = quantity_keys());
+
+/// Texts that an event may have: name, date, ..., and what a quantity is, such as `stress_drop_is`.
+const std::vector<std::string_view>& text_keys();
+/// Stores one of these texts. \throws InputError (value, problem, allowed).
+void store_text(Observation& observation, std::string_view key, const std::string& text);
 
 /// Parses `text` and stores it. \throws InputError (value, problem, allowed) for bad text, a bad unit, an uncertainty
 /// or a quantity that is not positive.
 void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit);
 /// Like the function above, for a value that is parsed already. `text` is the value as the user wrote it.
 void store(Observation& observation, const Key& key, const Measured& measured, std::string_view text);
+
+/// The value of a quantity. Absent if the observation has none.
+std::optional<Measured> value_of(const Observation& observation, const Key& key);
 
 }  // namespace slipfront::catalogue

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "catalogue/format.hpp"
+#include "foundation/text/file_kind.hpp"
 
 namespace slipfront::catalogue {
 
@@ -28,6 +29,7 @@ TableNotes read_events(std::string_view text, const std::string& file, const Sin
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
       throw InputError(
           {.file = file, .problem = "the file is empty", .allowed = "an event in TOML, CSV, .fsp or GeoJSON"});
+    refuse_other_kinds(text, file, ReadAs::events);
     return format_of(text, file).read(text, file, sink, options);
   } catch (const InputError& error) {
     Entry entry;
@@ -37,6 +39,13 @@ TableNotes read_events(std::string_view text, const std::string& file, const Sin
     sink(std::move(entry));
   }
   return {};
+}
+
+TableDescription describe_table(std::string_view text, const std::string& file, const TableOptions& options) {
+  refuse_other_kinds(text, file, ReadAs::events);
+  if (&format_of(text, file) != &csv_format)
+    throw InputError({.file = file, .problem = "not a table", .allowed = "a table with columns (CSV)"});
+  return describe_csv(text, file, options);
 }
 
 }  // namespace slipfront::catalogue

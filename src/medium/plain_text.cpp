@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "foundation/text/characters.hpp"
+#include "foundation/text/digits.hpp"
 #include "foundation/text/trimmed.hpp"
 #include "medium/units.hpp"
+#include "slipfront/medium/quantity.hpp"
 
 namespace slipfront::medium {
 namespace {
@@ -101,9 +103,7 @@ std::string plain_unit(std::string_view text) {
                                  {"dyn*cm", "dyne cm"}})
     if (unit == from) return std::string(to);
   if (unit.empty() || is_known(unit)) return unit;
-  std::string small(unit);
-  for (char& c : small)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  std::string small = small_letters(unit);
   replace_all(small, "hrs", "hr");
   replace_all(small, "yrs", "yr");
   replace_all(small, "secs", "s");
@@ -111,6 +111,19 @@ std::string plain_unit(std::string_view text) {
   if (small == "mins") small = "min";
   if (is_known(small)) return small;
   return unit;
+}
+
+std::string plain_column_unit(std::string_view text) {
+  std::string plain = plain_number(text);
+  if (plain.starts_with('x')) plain = trimmed(std::string_view(plain).substr(1));
+  if (plain.starts_with("10^")) plain.replace(0, 3, "1e");
+  const auto blank = plain.find(' ');
+  const auto scale = number(std::string_view(plain).substr(0, blank));
+  const std::string unit = scale && blank != std::string::npos ? plain_unit(plain.substr(blank)) : "";
+  if (!is_known(unit) || !(*scale > 0)) return plain_unit(text);
+  std::string factor = shortest(*scale);
+  factor.erase(std::remove(factor.begin(), factor.end(), '+'), factor.end());
+  return factor + " " + unit;
 }
 
 }  // namespace slipfront::medium

@@ -15,6 +15,9 @@ std::string plain_number(std::string_view text);
 /// Returns the text itself if no change makes it a known unit.
 std::string plain_unit(std::string_view text);
 
+/// The unit of a column, which may begin with a number: "x 10^18 Nm" is "1e18 N m". Otherwise like plain_unit.
+std::string plain_column_unit(std::string_view text);
+
 /// The unit of a text that is one number and a unit, in the spelling of UDUNITS. Nothing for other texts.
 std::optional<std::string> unit_of(std::string_view text);
 

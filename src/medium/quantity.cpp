@@ -132,6 +132,12 @@ double unit_factor(std::string_view unit, Dimension dimension) {
   return parsed->factor;
 }
 
+double column_unit_factor(std::string_view unit, Dimension dimension) {
+  const double scale = take_number(unit).value_or(1);
+  if (!(scale > 0)) throw InputError({.problem = "the factor of the unit is not positive", .allowed = "> 0"});
+  return scale * unit_factor(trimmed(unit), dimension);
+}
+
 Span parse_quantity(std::string_view text, Dimension dimension, std::string_view default_unit) {
   const std::string whole = plain_number(text);
   const auto refuse = [&](std::string problem, std::string allowed) {
@@ -155,7 +161,7 @@ Span parse_quantity(std::string_view text, Dimension dimension, std::string_view
   if (unit.empty() && dimension != Dimension::ratio) throw refuse("a number without a unit", kind(dimension).example);
   if (!unit.empty()) {
     try {
-      factor = unit_factor(unit, dimension);
+      factor = rest.empty() ? column_unit_factor(unit, dimension) : unit_factor(unit, dimension);
     } catch (const InputError& error) {
       throw refuse(error.complaint().problem, error.complaint().allowed);
     }

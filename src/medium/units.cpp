@@ -23,13 +23,6 @@ constexpr Prefix prefixes[] = {
     {"deci", "d", 0.1},   {"centi", "c", 0.01},  {"milli", "m", 1e-3}, {"micro", "u", 1e-6},  {"nano", "n", 1e-9},
     {"pico", "p", 1e-12}, {"femto", "f", 1e-15}, {"atto", "a", 1e-18}, {"zepto", "z", 1e-21}, {"yocto", "y", 1e-24}};
 
-std::string small_letters(std::string_view text) {
-  std::string small(text);
-  for (char& c : small)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return small;
-}
-
 const Unit* find(std::span<const NamedUnit> table, std::string_view name) {
   const auto at = std::lower_bound(table.begin(), table.end(), name,
                                    [](const NamedUnit& unit, std::string_view wanted) { return unit.name < wanted; });

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
+#include "foundation/text/file_kind.hpp"
 #include "foundation/text/nearest.hpp"
 #include "foundation/text/parse_toml.hpp"
 #include "foundation/text/toml_text.hpp"
@@ -229,6 +230,7 @@ const std::vector<std::string_view>& known_tables() {
 }
 
 Document read_document(std::string_view text, const std::string& file, const std::vector<std::string>& overrides) {
+  refuse_other_kinds(text, file, ReadAs::scenario);
   toml::table root = parse(text, file);
   const Overridden overridden = apply_overrides(root, overrides);
   Document document{.file = file, .text = std::string(text), .title = {}, .tables = {}};

@@ -169,6 +169,31 @@ constexpr Dialect dialects[] = {
     {"empty columns at the end", "name,slip_m,,\nA,1,,\n,,,\nB,2,,\n", "A slip=1\nB slip=2\n"},
     {"two columns of one quantity", "name,slip_m,mean_slip_cm\nA,1,100\n",
      "!1 mean_slip_cm: a second column of slip besides 'slip_m'\n"},
+    {"a header with another separator than the rows",
+     "# Number ; Longitude ; Duration (days) ; Mw\n1 -98.5 5 6.8\n2  -98.7\t9 6.6\n",
+     "line 2 duration=432000 moment_magnitude=6.8\nline 3 duration=777600 moment_magnitude=6.6\n"},
+    {"a first row with too few cells", "name,Vr (km/s),slip (m)\nA B C,2.7\nE F G,2.7,1\n",
+     "!2 : the row has 2 cells\nE F G rupture_velocity=2700 slip=1\n"},
+    {"blanks between the cells", "# event   slip_m  \"rise time [s]\" \n  A   1.2   3\n\"B 2\" 1 4\n",
+     "A slip=1.2 rise_time=3\nB 2 slip=1 rise_time=4\n"},
+    {"start and end in years", "start, end, slip_cm\n2014.5, 2014.6, 3\n2015,2016,3\n2014.6, 2014.5, 3\n",
+     "line 2 2014.5 slip=0.03 duration=3.1536e+06\nline 3 2015 slip=0.03\nline 4 2014.6 slip=0.03\n"},
+    {"start and end as dates",
+     "name,start date,End Date (UTC),slip_cm,duration_days\nA,2014-05-23,2014-06-02,3,\nB,2014-05-23 "
+     "06:00,2014-05-24T18:00,3,\n"
+     "C,2014-05-23,2014-06-02,3,5\nE,2014-02-30,2014-06-02,3,\n",
+     "A 2014-05-23 slip=0.03 duration=864000\nB 2014-05-23 06:00 slip=0.03 duration=129600\n"
+     "C 2014-05-23 slip=0.03 duration=432000\nE 2014-02-30 slip=0.03\n"},
+    {"start and end of a length", "name,start (km),end (km),slip_m\nA,1,2,3\n", "A slip=3\n? start (km)\n? end (km)\n"},
+    {"a column without unit", "name,Duration,slip_cm\na,14,3\nb,15,3\n",
+     "!1 Duration: no unit in the title, below it or in its cells\n"},
+    {"a column of sizes without unit", "name,length,slip_cm\na,14,3\nb,15,3\n", "a slip=0.03\nb slip=0.03\n"},
+    {"sizes with units in some cells", "name,length,slip_cm\na,14 km,3\nb,15,3\n",
+     "a slip=0.03 rupture_length=14000\nb slip=0.03\n"},
+    {"units in some cells", "name,Duration,slip_cm\na,14 days,3\nb,15,3\n",
+     "a slip=0.03 duration=1.2096e+06\n!3 Duration: a number without a unit\n"},
+    {"errors in the power of ten of the title", "name,M0 (10^18 N m),M0_err,duration_s\nA,3.2 +- 0.1,,5\nB,3,0.5,5\n",
+     "A duration=5 moment=3.2e+18+-1e+17\nB duration=5 moment=3e+18+-5e+17\n"},
     {"old line ends", "name,slip_m\rA,1\rB,2\r", "A slip=1\nB slip=2\n"},
 };
 
@@ -183,6 +208,57 @@ TEST(Dialects, ReadsColumnsThatAMapNames) {
       "km/s\"\n"
       "\"A2\" = \"error of rupture_velocity\"\n\"A3\" = \"ignore\"\n\"Ort\" = \"name\"\n";
   EXPECT_EQ(summary("slip;slip\nOrt;A1;A2;A3\nX;2,7;0,2;5\nY;-9;-9;1\n", map), "X rupture_velocity=2700+-200\nY\n");
+}
+
+TEST(Dialects, ReadsTablesWithoutHeaderByAMap) {
+  const std::string text = "# no titles\nkindA, 1998, 17.26, 6.65, 175\nkindB, 2001, 17.27, 7.65, 415\n";
+  EXPECT_EQ(summary(text), "!2 : no line has the titles of the columns\n");
+  EXPECT_EQ(
+      summary(
+          text,
+          "[columns]\n1 = \"kind\"\n2 = \"year\"\n3 = \"ignore\"\n4 = \"moment_magnitude\"\n5 = \"duration days\"\n"),
+      "line 2 1998 duration=1.512e+07 moment_magnitude=6.65\nline 3 2001 duration=3.5856e+07 "
+      "moment_magnitude=7.65\n");
+  EXPECT_EQ(summary(text, "[columns]\n6 = \"slip m\"\n"), "!2 columns.6: no column has this title\n");
+  EXPECT_EQ(summary("event,b,c\nA,1,2\n", "[columns]\n1 = \"name\"\n2 = \"slip m\"\n"), "A slip=1\n? c\n");
+}
+
+TEST(Dialects, ReadsTablesSeparatedByBlanksByAMap) {
+  EXPECT_EQ(summary("year month day len wid slip dur\n2007 09 08  56 52.5 0.0339\t5 \n",
+                    "separator = \" \"\n[columns]\n\"slip\"=\"slip m\"\n\"dur\"=\"duration "
+                    "days\"\n\"len\"=\"rupture_length km\"\n"),
+            "line 2 2007-09-08 slip=0.0339 duration=432000 rupture_length=56000\n? wid\n");
+}
+
+TEST(Dialects, ReadsUnitsWithAFactor) {
+  EXPECT_EQ(summary("name,M,d\na,2.2,30\nb,2e18 N m,30\n",
+                    "[columns]\n\"M\" = \"moment 1e19 N m\"\n\"d\" = \"duration 0.5 days\"\n"),
+            "a duration=1.296e+06 moment=2.2e+19\nb duration=1.296e+06 moment=2e+18\n");
+  EXPECT_EQ(summary("name,M\na,2\n", "[columns]\n\"M\" = \"moment 1e19 km\"\n"),
+            "!2 columns.M: the unit 'km' is not that of a seismic moment\n");
+}
+
+TEST(Dialects, AMapOfTheColumnsChangesNothingUntilItIsEdited) {
+  const auto events = [](const std::string& all) { return all.substr(0, all.find("?")); };  // without ignored columns
+  for (const Dialect& d : dialects) {
+    const TableDescription table = describe_table(d.text, "t.csv");
+    if (std::string_view(d.expected).starts_with("!1 ")) continue;
+    EXPECT_EQ(summary(d.text, table.map), events(summary(d.text))) << d.name << table.map;
+  }
+}
+
+TEST(Dialects, DescribesColumnsThatAreNotUsed) {
+  const auto reason = [](std::string_view text) { return describe_table(text, "t.csv").columns.back().reason; };
+  EXPECT_EQ(reason("name,slip_m,lat\nA,1,2\n"), "slipfront does not need it");
+  EXPECT_EQ(reason("name,slip_m,fc (Hz)\nA,1,2\n"), "no name of a quantity");
+  EXPECT_EQ(reason("name,slip_m,Vr (Hz)\nA,1,2\n"),
+            "the unit 'Hz' is not that of a velocity; allowed: a velocity, such as 3.0 km/s or 10 km/day");
+  EXPECT_EQ(reason("name,slip_m,mean_slip_cm\nA,1,2\n"),
+            "a second column of slip besides 'slip_m'; allowed: one; --columns map.toml can ignore the other");
+  EXPECT_EQ(
+      describe_table("name,slip_m,fc (Hz)\nA,1,2\n", "t.csv").map,
+      "# t.csv: a line without '#' changes how its column is read.\n[columns]\n# 'name' = 'name'\n# 'slip_m' = 'slip "
+      "m'\n'fc (Hz)' = 'ignore'  # no name of a quantity\n");
 }
 
 TEST(Dialects, RejectsWrongMaps) {
@@ -204,10 +280,41 @@ TEST(Json, ReadsEventsOfUsgs) {
   EXPECT_EQ(summary("{\"eventtime\": \"2016-07-01T00:00:00.000Z\", \"average-rupture-velocity\": \"2.5\", "
                     "\"average-rise-time\": \"4.0\", \"derived-magnitude\": \"7.1\", \"scalar-moment\": \"5.6e19\"}"),
             "t.json 2016-07-01 rupture_velocity=2500 rise_time=4 moment=5.6e+19 moment_magnitude=7.1\n");
+  EXPECT_EQ(
+      summary("{\"properties\": {\"mag\": 7, \"title\": \"M 7\", \"products\": {\"finite-fault\": [{\"properties\": "
+              "{\"average-rupture-velocity\": \"3.1\", \"scalar-moment\": \"4e19\"}}]}}}"),
+      "M 7 rupture_velocity=3100 moment=4e+19\n");
+  EXPECT_EQ(summary("{\"average-rise-time\": \"2.1\", \"eventsource\": \"us\", \"location\": \"19km SSW of Nowhere\"}"),
+            "19km SSW of Nowhere rise_time=2.1\n");
   EXPECT_EQ(summary("{\"features\": [{\"properties\": {\"slip\": 1.2}}]}"),
             "!1 : the subfaults of a finite-fault model\n");
   EXPECT_EQ(summary("{\"features\": []}"), "!1 : no features\n");
   EXPECT_EQ(summary("{ broken"), "!1 : not a JSON object\n");
+}
+
+TEST(ReadEvents, NamesFilesOfOtherKinds) {
+  const auto refusal = [](std::string_view text, const char* file) {
+    std::string all;
+    read_events(text, file, [&](Entry&& entry) { all += entry.error ? entry.error->problem : entry.observation.name; });
+    return all;
+  };
+  const auto is = [](const std::string& kind) {
+    return "this is " + kind + ": slipfront reads no such file as events";
+  };
+  EXPECT_EQ(refusal("PK\x03\x04 abc", "t.xlsx"), is("an Excel workbook or another ZIP archive"));
+  EXPECT_EQ(refusal("\x89HDF\r\n", "t.nc"), is("a NetCDF or HDF5 file"));
+  EXPECT_EQ(refusal("%PDF-1.4\n", "t.pdf"), is("a PDF document"));
+  EXPECT_EQ(refusal("PDEW2010  2 27 6 34\nevent name:  X\nhalf duration: 60.0\nMrr: 1.0e29\n", "CMTSOLUTION"),
+            is("a moment tensor (CMTSOLUTION)"));
+  EXPECT_EQ(refusal("2.0\n# c\nPLANE 1\n0 0 6 4 12 8\n0 90 2 1 4\nPOINTS 1\n", "t.srf"),
+            is("a kinematic source (SRF)"));
+  EXPECT_EQ(refusal("title = \"x\"\n[initial]\n", "t.toml"), is("a scenario"));
+  EXPECT_EQ(refusal("[initial]\n[event]\nname = \"both\"\n", "t.toml"), "both");
+  EXPECT_EQ(refusal("# stf\n0 0\n0.1 1e17\n0.2 2e17\n0.3 1e17\n0.4 0\n", "t.stf"),
+            "this is a source time function or another series of two columns: slipfront reads no such file as a table "
+            "of events");
+  EXPECT_EQ(refusal("rupture_velocity_km_s slip_m\n1 1\n2 1\n3 1\n2 2\n2 3\n", "t.csv"),
+            "line 2line 3line 4line 5line 6");
 }
 
 }  // namespace

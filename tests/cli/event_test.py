@@ -82,6 +82,24 @@ class Event(CommandLine):
         self.assertIn("wrong.toml:2: columns.A1 = 'rupture_velocty': unknown quantity; allowed: 'rupture_velocity'", done.stderr)
         self.assertEqual(run("event", table, "--columns", "none.toml").returncode, 3)
 
+    def test_files_of_other_kinds_are_named(self):
+        fsp = os.path.join(SOURCE, "cases", "synthetic-fault.fsp")
+        source = os.path.join(os.path.dirname(self.file("x", "")), "s.srf")
+        self.ok("event", fsp, "-o", source)
+        for arguments, kind in ((("event", source), "a kinematic source (SRF): slipfront reads no such file as events; allowed: slipfront event MODEL.fsp"),
+                                (("event", os.path.join(SOURCE, "cases", "step.toml")), "a scenario: slipfront reads no such file as events; allowed: slipfront pulse"),
+                                (("chain", fsp), "a finite-fault model: slipfront reads no such file as a scenario; allowed: slipfront event"),
+                                (("pulse", fsp), "a finite-fault model")):
+            with self.subTest(arguments):
+                done = run(*arguments)
+                self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+                self.assertIn(f"{arguments[1]}: this is {kind}", done.stderr)
+
+    def test_a_missing_unit_is_named_once(self):
+        done = run("event", self.file("u.csv", "name,Duration,slip_cm\n" + "".join(f"e{i},{i + 3},3\n" for i in range(30))))
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+        self.assertIn("u.csv:1: Duration: no unit in the title, below it or in its cells; allowed: a title with the unit, such as 'Duration (s)'", done.stderr)
+
     def test_a_bound_is_no_value(self):
         path = self.file("bound.csv", "name,Vr (km/s),slip velocity (m/s)\nA,<2.7,0.5\n")
         event = json.loads(self.ok("event", path, "--json"))["events"][0]

@@ -34,6 +34,7 @@ event cases/synthetic-fault.fsp --fault-grid -o grid.nc
 event cases/synthetic-fault.fsp -o source.srf
 event cases/catalogue.csv -o events.nc
 event --population
+columns cases/catalogue.csv
 pulse cases/fig-08.toml -o pulse.nc
 pulse cases/fig-08.toml --check
 pulse cases/step.toml --set output.every=0.5 -o step.nc

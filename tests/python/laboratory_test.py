@@ -146,17 +146,51 @@ class Table(unittest.TestCase):
     def test_bad_rows_are_named_and_good_rows_are_kept(self):
         text = "tau [MPa],normal_stress [MPa],front_velocity [m/s],stress_drop [MPa],colour\n2,5,90,,red\nx,5,90,,red\n2,5,-,,red\n2,5,90,0.4,red\n2,5\n2,0,90,,red\n"
         found = slipfront.laboratory(text, **POLYMER)
-        self.assertEqual((found.sizes["front"], found.attrs["ignored_columns"]), (1, "colour"))
-        for line, says in zip(found.attrs["errors"].split("\n"), ("table:3: tau [MPa] = 'x'", "table:4: front_velocity [m/s] = '-': no value", "without an error", "2 cells", "not positive"),
+        self.assertEqual((found.sizes["front"], found.attrs["ignored_columns"]), (2, "colour"))
+        for line, says in zip(found.attrs["errors"].split("\n"), ("table:3: tau [MPa] = 'x'", "table:4: front_velocity [m/s] = '-': no value", "2 cells", "not positive"),
                               strict=True):
             self.assertIn(says, line)
         with self.assertRaisesRegex(slipfront.InputError, "table:3"):
             slipfront.laboratory(text, strict=True, **POLYMER)
 
+    def test_a_stress_drop_without_an_error_is_not_used(self):
+        text = "name,tau [MPa],normal_stress [MPa],front_velocity [m/s],stress_drop [MPa]\nb,0.66,2,120,0.02{}\nc,0.67,2,150,0.02\n"
+        without = slipfront.laboratory(text.format(""), **POLYMER)
+        velocities = slipfront.laboratory(text.replace(",stress_drop [MPa]", "").replace(",0.02{}", "").replace(",0.02", ""), **POLYMER)
+        self.assertEqual(float(without.hardness_over_modulus), float(velocities.hardness_over_modulus))
+        self.assertIn("2 of 2 stress drops have no error and are not used, the first in line 2", without.attrs["warnings"])
+        some = slipfront.laboratory(text.format(" */ 1.1"), **POLYMER)
+        self.assertIn("1 of 2 stress drops have no error and are not used, the first in line 3", some.attrs["warnings"])
+        self.assertEqual(some.attrs["errors"], "")
+
+    def test_a_bound_is_no_value(self):
+        found = slipfront.laboratory("tau [MPa],normal_stress [MPa],front_velocity [m/s]\n2,5,90\n2,5,<90\n", **POLYMER)
+        self.assertEqual(found.attrs["errors"], "table:3: front_velocity: no value; allowed: a number with its unit")
+
+    def test_the_stress_after_gives_the_drop(self):
+        fronts = {"tau [MPa]": ["0.66 +- 0.003", 0.67], "normal_stress [MPa]": [2, 2], "front_velocity [m/s]": [120, 150]}
+        after = slipfront.laboratory({**fronts, "residual stress [MPa]": ["0.5 +- 0.004", "0.5 +- 0.05"]}, **POLYMER)
+        drop = slipfront.laboratory({**fronts, "stress_drop [MPa]": ["0.16 +- 0.005", "0.17 +- 0.05"]}, **POLYMER)
+        np.testing.assert_allclose(after.stress_drop_interval, drop.stress_drop_interval, rtol=1e-12)
+        np.testing.assert_allclose(after.hardness_over_modulus, drop.hardness_over_modulus, rtol=1e-9)
+        with self.assertRaisesRegex(slipfront.InputError, "table:2: .*not below the shear stress before"):
+            slipfront.laboratory({**fronts, "residual stress [MPa]": [0.7, 0.7]}, **POLYMER)
+
+    def test_a_map_and_a_constant_normal_stress(self):
+        titles = "id,shear stress before [MPa],N [MPa],rupture_velocity[m/s]\nb,0.66,2,120\nc,0.67,2,150\n"
+        found = slipfront.laboratory(titles, columns={"columns": {"N [MPa]": "normal_stress MPa"}}, **POLYMER)
+        self.assertEqual(found.name.values.tolist(), ["b", "c"])
+        constant = slipfront.laboratory("tau_MPa;V_L (m/s)\n0.66;120\n0.67;150\n".replace("V_L", "front_velocity"), normal_stress="2 MPa", **POLYMER)
+        in_pascal = slipfront.laboratory({"tau": ["0.66 MPa", "0.67 MPa"], "front_velocity_m_s": [120, 150]}, normal_stress=2e6, **POLYMER)
+        for other in (constant, in_pascal):
+            self.assertEqual(float(other.hardness_over_modulus), float(found.hardness_over_modulus))
+        with self.assertRaisesRegex(slipfront.InputError, "normal_stress = '2 kg'"):
+            slipfront.laboratory(titles, normal_stress="2 kg", **POLYMER)
+
     def test_refuses(self):
         row = {"tau [MPa]": [2.0], "normal_stress [MPa]": [5], "front_velocity [m/s]": [90]}
         for change, says in [({"table": {}}, "dict"), ({"table": 3}, "int"), ({"table": ""}, "path"), ({"table": "tau\n1 MPa\n"}, "normal_stress: the table has no such column"),
-                             ({"table": {**row, "tau [kg]": [1]}}, "kg"), ({"table": {**row, "tau_MPa": [1]}}, "two columns"), ({"table": "a\n"}, "shear_stress"),
+                             ({"table": {**row, "tau [kg]": [1]}}, "kg"), ({"table": {**row, "tau_MPa": [1]}}, "a second column of shear_stress"), ({"table": "a\n"}, "shear_stress"),
                              ({"poisson_ratio": None}, "poisson_ratio"), ({"s_wave_speed": "3 kg"}, "s_wave_speed"), ({"prior": (1, 1)}, "prior"), ({"scatter_prior": 3}, "scatter_prior"),
                              ({"draws": 0}, "draws"), ({"seed": -1}, "seed"), ({"table": {**row, "front_velocity [m/s]": [9000]}}, "faster than c")]:
             with self.subTest(says), self.assertRaisesRegex(slipfront.InputError, says):
@@ -256,6 +290,13 @@ class Command(PythonCommands):
         self.assertGreater(os.path.getsize(picture), 20000)
         in_si = json.loads(self.ok("laboratory", FRONTS, *OPTIONS, "--json", "--si"))
         self.assertAlmostEqual(in_si["fronts"][0]["front_velocity"] / SPEED, told["fronts"][0]["front_velocity"], 12)
+
+    def test_options_for_columns(self):
+        table = self.file("t.csv", "a b c\n1 0.66 120\n2 0.67 150\n")
+        columns = self.file("map.toml", "separator = ' '\n[columns]\na = 'name'\nb = 'shear_stress MPa'\nc = 'rupture_velocity m/s'\n")
+        told = json.loads(self.ok("laboratory", table, *OPTIONS, "--columns", columns, "--normal-stress", "2 MPa", "--json"))
+        self.assertEqual([front["name"] for front in told["fronts"]], ["1", "2"])
+        self.refused(2, "laboratory", table, *OPTIONS, "--columns", columns, says=["normal_stress: the table has no such column"])
 
     def test_refuses(self):
         bad = self.file("bad.csv", "tau [MPa],normal_stress [MPa],front_velocity [m/s],other\n2,5,90,1\nx,5,90,1\n")

@@ -171,7 +171,22 @@ class Catalogues(PythonCommands):
             with self.subTest(arguments):
                 self.refused(2, "population", self.file("good.csv", good), *arguments, says=[message])
         self.assertEqual(support.run("population", "--steps", "2").returncode, 2)  # starts the program
-        self.refused(2, "population", self.file("bad.csv", good.replace("3,,1,,,,10", "3,,1,,,1 kg,10")), says=["bad.csv:2: width_km"])
+
+    def test_a_bad_row_is_left_out_with_its_reason(self):
+        text = self.ROWS + "".join(f"e{i},x,3,,{i},,,,10\n" for i in range(1, 5)).replace("3,,1,,,,10", "3,,1,,,1 kg,10")
+        found, left_out = _hierarchy._read(text, None, ["", "", ""], {"velocity": 0.2, "size": 0.4})
+        self.assertEqual(([entry["name"] for entry in found], left_out[0][0]), (["e2", "e3", "e4"], "e1"))
+        self.assertIn("events:2: width_km = '1 kg'", left_out[0][1])
+
+    def test_a_map_names_columns(self):
+        text = "who\tA1\tA2\tT\n" + "".join(f"e{i}\t{2 + i / 10}\t{i}\t{10 * i}\n" for i in range(1, 5))
+        columns = {"columns": {"who": "name", "A1": "rupture_velocity km/s", "A2": "slip m", "T": "duration s"}}
+        mapped = slipfront.population(text, steps=20, columns=columns)
+        titled = slipfront.population(text.replace("who\tA1\tA2\tT", "name\tVr (km/s)\tslip (m)\tduration (s)"), steps=20)
+        np.testing.assert_array_equal(mapped.stress_median, titled.stress_median)
+        path = self.file("map.toml", "[columns]\nwho = 'name'\nA1 = 'rupture_velocity km/s'\nA2 = 'slip m'\nT = 'duration s'\n")
+        out = json.loads(self.ok("population", self.file("t.csv", text), "--columns", path, "--steps", "20", "--json"))
+        self.assertEqual(out["events"], ["e1", "e2", "e3", "e4"])
 
     def test_the_command_writes_what_it_prints(self):
         path = str(pathlib.Path(self.file("c.csv", "")).parent / "p.nc")

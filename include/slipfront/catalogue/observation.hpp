@@ -62,6 +62,7 @@ struct Observation : medium::Constants {
   std::string date;
   std::string kind;      ///< "earthquake", "slow slip", ... free text
   std::string citation;  ///< published source of the numbers
+  std::string study;     ///< the study that published them, in populations of several studies
   std::string note;      ///< caveats of the source, free text
   std::string file;      ///< the file that the event was read from
   std::size_t line = 0;  ///< line of the row, table or header in that file
@@ -82,8 +83,10 @@ struct Observation : medium::Constants {
   std::optional<Measured> friction_coefficient;  ///< C
   std::optional<Measured> normal_stress;         ///< Pa
   std::optional<Measured> hardness;              ///< Pa; contact_ratio = A_plastic normal_stress / hardness
-  std::vector<Subfault> subfaults;               ///< patches, if the event is a finite-fault model with coordinates
-  std::optional<Measure> slip_velocity_is;       ///< as given in the file; see measure()
+  /// Pa, ahead of a front in the laboratory and behind it. Events have none.
+  std::optional<Measured> shear_stress, shear_stress_after;
+  std::vector<Subfault> subfaults;          ///< patches, if the event is a finite-fault model with coordinates
+  std::optional<Measure> slip_velocity_is;  ///< as given in the file; see measure()
   RuptureVelocityIs rupture_velocity_is = RuptureVelocityIs::front;
   StressDropIs stress_drop_is = StressDropIs::static_drop;
   double front_threshold = default_front_threshold;  ///< slip velocity at the observed front, as a fraction of the peak

@@ -22,6 +22,9 @@ using Sink = std::function<void(Entry&&)>;
 struct TableOptions {
   std::string map;       ///< TOML text that maps titles to quantities (docs/events.md); by default none
   std::string map_file;  ///< its file, for error messages
+  /// Whether the rows are fronts in the laboratory, with shear and normal stress, instead of events.
+  bool of_fronts = false;
+  std::vector<std::string> required = {};  ///< quantities that each row must have
 };
 
 /// Reads the map of the options and discards it. \throws InputError with file and line, if the map is wrong.
@@ -38,6 +41,28 @@ struct TableNotes {
 /// or in the cell; columns of errors; comments and a preamble before the header; commas, tabs or semicolons. A bad row
 /// becomes an entry with an error. \throws InputError when the text as a whole is unusable, or the map is wrong.
 TableNotes read_csv(std::string_view text, const std::string& file, const Sink& sink, const TableOptions& options = {});
+
+/// The meaning that a reader gives to one column of a table.
+struct ColumnDescription {
+  std::string title;
+  std::string meaning;          ///< as in a map, such as "error of slip" or "name"; empty if the column is not used
+  std::string unit;             ///< unit of the cells; empty if they have none, or each has its own
+  double deviations = 0;        ///< an error is this many standard deviations
+  std::string reason;           ///< why the column is not used, or cannot be read
+  bool looks_physical = false;  ///< a column that is not understood, and looks like a quantity
+};
+
+struct TableDescription {
+  std::string file;
+  std::size_t header_line = 0;  ///< 0 if no line has titles
+  char separator = ',';         ///< between the cells of a row; ' ' for any number of blanks
+  bool decimal_comma = false;
+  std::vector<ColumnDescription> columns;
+  std::string map;  ///< TOML text for TableOptions, to edit
+};
+
+/// Describes a CSV table by its header. \throws InputError when the text is none, or the map is wrong.
+TableDescription describe_table(std::string_view text, const std::string& file, const TableOptions& options = {});
 
 /// A finite-fault model in SRCMOD / USGS .fsp text format: rupture velocity from avVr, slip velocity from the
 /// area-weighted mean slip over avTr (or over the slip-weighted mean RISE), elastic constants from the velocity table

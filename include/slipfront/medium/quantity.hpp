@@ -33,9 +33,12 @@ bool is_unit(std::string_view text);
 /// unknown unit or one of another dimension.
 double unit_factor(std::string_view unit, Dimension dimension);
 
+/// Like unit_factor, for the unit of a column, which may begin with a number: "1e19 N m".
+double column_unit_factor(std::string_view unit, Dimension dimension);
+
 /// Reads "3.0 km/s" as 3000 m/s, and a range such as "2-15 km/day" with both ends. A number without a unit has
-/// `default_unit`. If that is empty, the number is an error, except for a ratio. \throws InputError (value, problem and
-/// allowed only).
+/// `default_unit`, the unit of a column. If that is empty, the number is an error, except for a ratio. \throws
+/// InputError (value, problem and allowed only).
 Span parse_quantity(std::string_view text, Dimension dimension, std::string_view default_unit = {});
 
 }  // namespace slipfront::medium

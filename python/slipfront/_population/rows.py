@@ -1,83 +1,46 @@
 """Reads the events of a catalogue for a hierarchical model."""
 
-import csv
-import io
-
-from .. import _slipfront
 from .._numbers import np
 from .._slipfront import InputError
 from . import forward
 from .events import Events, log_size
 
-#: Columns that only a hierarchical model reads: titles, quantity, dimension, and the unit of a plain number.
-COLUMNS = {"width": ("width", "length", ""), "width_km": ("width", "length", "km"), "width_m": ("width", "length", "m"),
-           "length": ("length", "length", ""), "length_km": ("length", "length", "km"), "length_m": ("length", "length", "m"),
-           "moment_N_m": ("moment", "ratio", ""), "Mw": ("Mw", "ratio", "")}
-NOTHING = (float("nan"), float("nan"))
 
-
-def further(text, name):
-    """Returns {line: {quantity: (median of ln, deviation of ln)}} of the columns above, and {line: study}. Raises InputError."""
-    quantities: dict[int, dict[str, tuple[float, float]]] = {}
-    studies: dict[int, str] = {}
-    reader = csv.reader(io.StringIO(text, newline=""))
-    try:
-        titles: list[str] = next(reader, [])
-        rows = [(reader.line_num, titles), *((reader.line_num, cells) for cells in reader)]
-    except csv.Error as error:
-        raise InputError(f"{name}:{reader.line_num}: {error}; allowed: a CSV table") from None
-    begin = rows[0][0]
-    for end, cells in rows[1:]:
-        line, begin = begin + 1, end
-        for title, cell in zip(titles, cells):
-            if title.strip() == "study" and cell.strip():
-                studies[line] = cell.strip()
-            if title.strip() in COLUMNS and cell.strip():
-                quantity, dimension, unit = COLUMNS[title.strip()]
-                try:
-                    quantities.setdefault(line, {})[quantity] = _slipfront.measured(cell, dimension, unit)
-                except InputError as error:
-                    raise InputError(f"{name}:{line}: {title.strip()}: {error}") from None
-    return quantities, studies
-
-
-def moment_of(quantities):
+def moment_of(row):
     """Returns ln of the moment in N m and its deviation."""
-    if "moment" in quantities:
-        return quantities["moment"]
-    if "Mw" in quantities:
-        median, deviation = quantities["Mw"]
-        magnitude = np.exp(median)
-        return np.log(10) * (1.5 * magnitude + 9.05), np.log(10) * 1.5 * deviation * magnitude
-    return NOTHING
+    if np.isfinite(row["moment"][0]):
+        return row["moment"]
+    median, deviation = row["moment_magnitude"]
+    magnitude = np.exp(median)
+    return np.log(10) * (1.5 * magnitude + 9.05), np.log(10) * 1.5 * deviation * magnitude
 
 
 def _duration(row):
     return row["duration"] if np.isfinite(row["duration"][0]) else row["rise_time"]
 
 
-def _front(row, quantities):
+def _front(row):
     """Returns ln(V) in m/s, its deviation, and that of the duration in it."""
     if np.isfinite(row["rupture_velocity"][0]):
         return (*row["rupture_velocity"], 0.0)
-    length, duration = quantities.get("length", NOTHING), row["duration"]
+    length, duration = row["length"], row["duration"]
     return length[0] - duration[0], np.hypot(length[1], duration[1]), duration[1]
 
 
-def read_row(row, quantities, errors):
+def read_row(row, errors):
     """Returns the values of one event as a dict, or the reason for which it has none. `errors` are the deviations for exact numbers."""
     if row["error"]:
         return row["error"]
     duration = _duration(row)
     if not np.isfinite(duration[0]):
         return "no duration or rise time"
-    front, front_error, in_front = _front(row, quantities)
+    front, front_error, in_front = _front(row)
     if not np.isfinite(front):
         return "no rupture velocity, and no length with a duration"
     log_front = front - np.log(row["speed"])
     if log_front >= 0:
         return "the rupture velocity is above c"
-    moment, width = moment_of(quantities), quantities.get("width", NOTHING)
+    moment, width = moment_of(row), row["width"]
     if np.isfinite(moment[0] + width[0]):
         potency = moment[0] - width[0] - np.log(row["shear_modulus"])
         size = log_size(forward.MOMENT, speed=row["speed"], log_duration=duration[0], log_potency=potency)
@@ -88,7 +51,7 @@ def read_row(row, quantities, errors):
         own, kind, powers = row["slip"][1], forward.SLIP, 1
     else:
         return "no slip, and no moment with a width"
-    return {"name": row["name"], "study": row["citation"] or f"line {row['line']}", "speed": row["speed"], "log_duration": duration[0], "log_front": log_front,
+    return {"name": row["name"], "study": row["study"] or row["citation"] or f"line {row['line']}", "speed": row["speed"], "log_duration": duration[0], "log_front": log_front,
             "front_error": front_error or errors["velocity"], "threshold": row["front_threshold"] if row["rupture_velocity_is"] == "front" else 0.0, "kind": kind,
             "log_size": size, "size_error": np.hypot(own or errors["size"], powers * duration[1]), "shared": powers * in_front**2,
             "unit": size - (moment[0] if kind == forward.MOMENT else row["slip"][0])}

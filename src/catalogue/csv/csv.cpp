@@ -1,11 +1,12 @@
-#include <algorithm>
-#include <optional>
+#include "catalogue/csv/csv.hpp"
 
-#include "catalogue/csv/csv_layout.hpp"
-#include "catalogue/csv/csv_row.hpp"
-#include "catalogue/csv/csv_subfaults.hpp"
+#include <algorithm>
+#include <set>
+
 #include "catalogue/format.hpp"
+#include "foundation/text/characters.hpp"
 #include "foundation/text/csv_records.hpp"
+#include "foundation/text/file_kind.hpp"
 #include "foundation/text/latin1.hpp"
 #include "foundation/text/trimmed.hpp"
 #include "medium/plain_text.hpp"
@@ -15,172 +16,251 @@ namespace {
 
 using Role = Column::Role;
 
-/// The text in UTF-8 with the line ends that the reader knows. A line that is not UTF-8 is read as Latin-1. Nothing if
-/// no change is needed.
-std::optional<std::string> repaired(std::string_view text) {
-  const bool old_ends = text.find('\r') != std::string_view::npos && text.find('\n') == std::string_view::npos;
-  if (!old_ends && is_utf8(text)) return std::nullopt;
-  std::string out;
-  const char end_of_line = old_ends ? '\r' : '\n';
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(end_of_line), text.size());
-    const std::string_view line = text.substr(0, end);
-    out += is_utf8(line) ? std::string(line) : from_latin1(line);
-    if (end < text.size()) out += '\n';
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return out;
-}
-
-void refuse_utf16(std::string_view text) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-    throw InputError({.line = 1, .problem = "the text is UTF-16", .allowed = "UTF-8 or Latin-1"});
-}
-
-/// Counts the cells of the columns that the reader does not know.
-class UnknownColumns {
+/// A table whose columns are understood before its rows are read.
+class CsvTable {
  public:
-  explicit UnknownColumns(const std::vector<Column>& columns) : columns_(columns), counts_(columns.size()) {}
+  CsvTable(std::string_view text, const std::string& file, const TableOptions& options);
 
-  void take(const std::vector<std::string>& cells, const std::vector<std::string>& missing) {
-    for (std::size_t i = 0; i < std::min(cells.size(), columns_.size()); ++i) {
-      if (columns_[i].role != Role::unknown || is_absent(cells[i], missing)) continue;
-      ++(is_numeric(cells[i]) ? counts_[i].numbers : counts_[i].texts);
-    }
-  }
-
-  void report(TableNotes& notes) const {
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      const Column& c = columns_[i];
-      if (c.role != Role::unknown && c.role != Role::unused) continue;
-      const bool is_empty = counts_[i].numbers + counts_[i].texts == 0;
-      std::string title(trimmed(c.title));
-      if (title.empty() && is_empty) continue;
-      if (title.empty()) title = "column " + std::to_string(i + 1);
-      notes.ignored.push_back(title);
-      const bool numbers_only = counts_[i].numbers > 0 && counts_[i].texts == 0;
-      if (c.role == Role::unknown && (c.looks_physical || numbers_only)) notes.ignored_quantities.push_back(title);
-    }
-  }
+  /// \throws InputError if the table as a whole cannot be read.
+  void require_readable() const;
+  /// Passes the rows on.
+  void read(const Sink& sink) const;
+  TableNotes notes() const;
+  TableDescription description() const;
 
  private:
-  static bool is_numeric(const std::string& cell) {
-    std::string text = medium::plain_number(cell);
+  /// Numbers and texts in a column, and the numbers without a unit.
+  struct Count {
+    std::size_t numbers = 0, texts = 0, bare = 0;
+  };
+
+  template <class Take, class Comment>
+  std::size_t for_each_row(Take&& take, Comment&& comment) const;
+  void count(const std::vector<std::string>& cells);
+  void find_missing_units();
+  bool describes_subfaults() const;
+  std::string title(std::size_t column) const;
+
+  std::string storage_;
+  std::string_view text_;
+  const std::string& file_;
+  const TableOptions& options_;
+  ColumnMap map_;
+  Layout layout_;
+  std::vector<Count> counts_;
+  std::vector<std::string> notes_;
+  std::size_t rows_ = 0, open_quote_ = 0;
+};
+
+CsvTable::CsvTable(std::string_view text, const std::string& file, const TableOptions& options)
+    : text_(text), file_(file), options_(options), map_(parse_column_map(options)) {
+  if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))
+    throw InputError({.line = 1, .problem = "the text is UTF-16", .allowed = "UTF-8 or Latin-1"});
+  if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+  if (auto utf8 = lines_in_utf8(text_)) text_ = storage_ = std::move(*utf8);
+  if (trimmed(text_).empty())
+    throw InputError({.problem = "the file is empty", .allowed = "a CSV header line and one row an event"});
+  layout_ = find_layout(text_, map_);
+  if (layout_.separator == ' ') text_ = storage_ = with_tabs(text_);
+  counts_.resize(layout_.columns.size());
+  std::size_t commented = 0, first_commented = 0;
+  open_quote_ = for_each_row([&](std::vector<std::string>&& cells, std::size_t) { count(cells); },
+                             [&](std::size_t line) { commented++ == 0 ? first_commented = line : 0; });
+  if (commented > 0)
+    notes_.push_back(file + ":" + std::to_string(first_commented) + ": comments that hold as many cells as a row: " +
+                     std::to_string(commented) + "; they are not read");
+  find_missing_units();
+}
+
+/// Calls `take` with the cells and the line of each row, and `comment` with the line of each comment that has as many
+/// cells. Returns the line of a quote that is never closed, or 0.
+template <class Take, class Comment>
+std::size_t CsvTable::for_each_row(Take&& take, Comment&& comment) const {
+  const char separator = layout_.separator == ' ' ? '\t' : layout_.separator;
+  const auto skip = [&](std::string_view line, std::size_t number) {
+    if (number <= layout_.last_head_line) return number != layout_.header_line || is_comment(line);
+    if (!is_comment(line)) return false;
+    const auto cells = static_cast<std::size_t>(std::count(line.begin(), line.end(), separator)) + 1;
+    if (cells == layout_.columns.size() && cells > 1) comment(number);
+    return true;
+  };
+  return for_each_record(text_,
+                         [&](std::vector<std::string>&& cells, std::size_t line) {
+                           const bool is_blank = std::all_of(cells.begin(), cells.end(),
+                                                             [](const auto& cell) { return trimmed(cell).empty(); });
+                           if (!is_blank && line > layout_.last_head_line && cells != layout_.titles)
+                             take(std::move(cells), line);
+                         },
+                         {.separator = separator, .skip = skip});
+}
+
+void CsvTable::count(const std::vector<std::string>& cells) {
+  ++rows_;
+  for (std::size_t i = 0; i < std::min(cells.size(), counts_.size()); ++i) {
+    if (is_absent(cells[i], map_.missing)) continue;
+    std::string text = medium::plain_number(cells[i]);
     std::replace(text.begin(), text.end(), ',', '.');
     if (!text.empty() && std::string_view("<>~").find(text.front()) != std::string_view::npos) text.erase(0, 1);
-    return medium::number(text).has_value() || (text.find("+-") != std::string::npos && text.front() <= '9');
+    const bool is_number = medium::number(text) || (text.find("+-") != std::string::npos && text.front() <= '9');
+    ++(is_number ? counts_[i].numbers : counts_[i].texts);
+    if (std::none_of(text.begin(), text.end(), [](char c) { return is_letter(c) && c != 'e' && c != 'E'; }))
+      ++counts_[i].bare;
   }
-
-  struct Count {
-    std::size_t numbers = 0, texts = 0;
-  };
-  const std::vector<Column>& columns_;
-  std::vector<Count> counts_;
-};
-
-void require_observed_quantity(const Layout& layout) {
-  const bool any = std::any_of(layout.columns.begin(), layout.columns.end(),
-                               [](const Column& c) { return c.is_quantity() && !is_auxiliary(*c.key); });
-  if (!any)
-    throw InputError(
-        {.line = layout.header_line,
-         .problem = "the header names no observed quantity",
-         .allowed = "columns such as name, rupture_velocity_km_s, slip_velocity_m_s; or --columns map.toml"});
 }
 
-/// Reads the rows below the header.
-class Rows {
- public:
-  Rows(const Layout& layout, const ColumnMap& map, const std::string& file, const Sink& sink)
-      : layout_(layout), map_(map), file_(file), sink_(sink), unknown_(layout.columns) {}
-
-  /// Returns the line of a quote that is never closed, or 0.
-  std::size_t read(std::string_view text) {
-    const auto skip = [this](std::string_view line, std::size_t number) {
-      if (number <= layout_.last_head_line) return number != layout_.header_line || is_comment(line);
-      if (!is_comment(line)) return false;
-      note_comment(line, number);
-      return true;
-    };
-    return for_each_record(text,
-                           [this](std::vector<std::string>&& cells, std::size_t line) { take(std::move(cells), line); },
-                           {.separator = layout_.separator, .skip = skip});
+/// A column whose numbers all lack a unit is refused, or not used if it only serves to derive others.
+void CsvTable::find_missing_units() {
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    Column& c = layout_.columns[i];
+    if (!c.is_quantity() || !c.unit.empty() || c.key->dimension == medium::Dimension::ratio || c.refusal) continue;
+    if (counts_[i].bare == 0 || counts_[i].bare < counts_[i].numbers + counts_[i].texts) continue;
+    const std::string unit(medium::si_unit(c.key->dimension));
+    if (is_auxiliary(*c.key)) {
+      notes_.push_back(file_ + ":" + std::to_string(layout_.header_line) + ": column '" + title(i) +
+                       "' has no unit: not used");
+      c = {.role = Role::unused, .title = c.title};
+      c.reason = "no unit";
+    } else if (rows_ > 1 && counts_[i].bare == rows_) {
+      c.refusal = {
+          .key = title(i),
+          .problem = "no unit in the title, below it or in its cells",
+          .allowed = "a title with the unit, such as '" + title(i) + " (" + unit + ")', or --columns map.toml"};
+    }
   }
+}
 
-  std::size_t count() const { return count_; }
+/// The title of a column for people.
+std::string CsvTable::title(std::size_t column) const {
+  const std::string title(trimmed(layout_.columns[column].title));
+  return title.empty() ? "column " + std::to_string(column + 1) : title;
+}
 
-  void report(TableNotes& notes) const {
-    unknown_.report(notes);
-    if (commented_ > 0)
-      notes.notes.push_back(file_ + ":" + std::to_string(first_commented_) +
-                            ": comments that hold as many cells as a row: " + std::to_string(commented_) +
-                            "; they are not read");
+/// Whether the rows are the subfaults of one event: slip at positions, with depths, and neither names, dates,
+/// magnitudes nor velocities of events.
+bool CsvTable::describes_subfaults() const {
+  std::set<std::string_view> words;  // meanings of the first words of the titles
+  for (const Column& c : layout_.columns) {
+    const std::string_view title = trimmed(c.title), word = title.substr(0, title.find_first_of(" _([,.:\t\n"));
+    words.insert(meaning_of(small_letters(word), Word::patch));
+    if (c.key && c.key->name == "slip") words.insert("slip");
+    for (const char* text : {"name", "date", "year", "kind"})
+      if (c.text == text) return false;
+    for (const char* key : {"duration", "rupture_velocity", "stress_drop", "moment_magnitude", "slip_velocity"})
+      if (c.key && c.key->name == key) return false;
   }
+  const bool has_slips = words.count("slip of a patch") > 0;
+  return (words.count("slip") > 0 || has_slips) && (words.count("patch") > 0 || has_slips) && words.count("x") > 0 &&
+         words.count("y") > 0 && words.count("depth") > 0;
+}
 
- private:
-  void take(std::vector<std::string>&& cells, std::size_t line) {
-    const bool is_blank =
-        std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return trimmed(cell).empty(); });
-    if (is_blank || line <= layout_.last_head_line || cells == layout_.titles) return;
-    ++count_;
-    unknown_.take(cells, map_.missing);
-    sink_(read_row(layout_, map_.missing, cells, line, file_));
-  }
-
-  void note_comment(std::string_view line, std::size_t number) {
-    const auto cells = static_cast<std::size_t>(std::count(line.begin(), line.end(), layout_.separator)) + 1;
-    if (cells != layout_.columns.size() || cells < 2) return;
-    if (commented_++ == 0) first_commented_ = number;
-  }
-
-  const Layout& layout_;
-  const ColumnMap& map_;
-  const std::string& file_;
-  const Sink& sink_;
-  UnknownColumns unknown_;
-  std::size_t count_ = 0, commented_ = 0, first_commented_ = 0;
-};
-
-TableNotes read_table(std::string_view text, const std::string& file, const Sink& sink, const ColumnMap& map) {
-  refuse_utf16(text);
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  const std::optional<std::string> utf8 = repaired(text);
-  if (utf8) text = *utf8;
-  if (trimmed(text).empty())
-    throw InputError({.problem = "the file is empty", .allowed = "a CSV header line and one row an event"});
-  const Layout layout = find_layout(text, map);
-  refuse_subfaults(layout);
-  require_observed_quantity(layout);
-  Rows rows(layout, map, file, sink);
-  const std::size_t open_quote = rows.read(text);
-  if (open_quote != 0) {
-    Entry entry;
-    entry.observation.name = "line " + std::to_string(open_quote);
-    entry.observation.file = file;
-    entry.error = Complaint{.file = file,
-                            .line = open_quote,
-                            .problem = "a quote is opened and never closed",
-                            .allowed = "\"...\" around a cell"};
-    sink(std::move(entry));
-  } else if (rows.count() == 0) {
+void CsvTable::require_readable() const {
+  const std::size_t line = std::max(layout_.header_line, layout_.last_head_line + (layout_.header_line == 0 ? 1 : 0));
+  const auto refuse = [&](Complaint c) {
+    if (c.line == 0) c.line = line;
+    throw InputError(c);
+  };
+  for (const Column& c : layout_.columns)
+    if (c.refusal) refuse(*c.refusal);
+  if (describes_subfaults())
+    refuse({.problem = "a table of subfaults (slip at positions and depths), not of events",
+            .allowed = "one event a row; a finite-fault model is read from its .fsp file"});
+  const auto has = [&](auto&& is_wanted) {
+    return std::any_of(layout_.columns.begin(), layout_.columns.end(), is_wanted);
+  };
+  for (const std::string& name : options_.required)
+    if (!has([&](const Column& c) { return c.is_quantity() && c.key->name == name; }))
+      refuse({.key = name,
+              .problem = "the table has no such column",
+              .allowed = "a column " + name + " with its unit, or --columns map.toml"});
+  const bool is_observed =
+      has([](const Column& c) { return c.text == "end" || (c.is_quantity() && !is_auxiliary(*c.key)); });
+  if (!is_observed) refuse_other_kinds(text_, file_, ReadAs::table);
+  if (!is_observed && layout_.header_line > 0)
+    refuse({.problem = "the header names no observed quantity",
+            .allowed = "columns such as name, rupture_velocity_km_s, slip_velocity_m_s; or --columns map.toml"});
+  if (!is_observed)
+    refuse({.problem = "no line has the titles of the columns",
+            .allowed = "a header, or --columns map.toml with the numbers of the columns, such as 1 = \"name\""});
+  if (rows_ == 0 && open_quote_ == 0)
     throw InputError({.problem = "a header and no rows", .allowed = "a CSV header line and one row an event"});
+}
+
+void CsvTable::read(const Sink& sink) const {
+  for_each_row([&](std::vector<std::string>&& cells,
+                   std::size_t line) { sink(read_row(layout_, map_, options_, cells, line, file_)); },
+               [](std::size_t) {});
+  if (open_quote_ == 0) return;
+  Entry entry;
+  entry.observation.name = "line " + std::to_string(open_quote_);
+  entry.observation.file = file_;
+  entry.error = Complaint{.file = file_,
+                          .line = open_quote_,
+                          .problem = "a quote is opened and never closed",
+                          .allowed = "\"...\" around a cell"};
+  sink(std::move(entry));
+}
+
+TableNotes CsvTable::notes() const {
+  TableNotes notes{.notes = notes_};
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    const Column& c = layout_.columns[i];
+    const Count& n = counts_[i];
+    if (c.is_used() || (trimmed(c.title).empty() && n.numbers + n.texts == 0)) continue;
+    notes.ignored.push_back(title(i));
+    if (c.role == Role::unknown && (c.looks_physical || (n.numbers > 0 && n.texts == 0)))
+      notes.ignored_quantities.push_back(title(i));
   }
-  TableNotes notes;
-  rows.report(notes);
   return notes;
 }
 
-}  // namespace
+TableDescription CsvTable::description() const {
+  TableDescription all{.file = file_,
+                       .header_line = layout_.header_line,
+                       .separator = layout_.separator,
+                       .decimal_comma = layout_.decimal_comma};
+  for (std::size_t i = 0; i < layout_.columns.size(); ++i) {
+    const Column& c = layout_.columns[i];
+    ColumnDescription column{
+        .title = title(i), .meaning = meaning_of(c), .unit = c.unit, .deviations = c.is_error() ? c.deviations : 0};
+    if (c.refusal)
+      column.reason = c.refusal->problem + (c.refusal->value.empty() ? "" : " (" + c.refusal->value + ")") +
+                      "; allowed: " + c.refusal->allowed;
+    else if (!c.is_used())
+      column.reason = !c.reason.empty()        ? c.reason
+                      : c.role == Role::unused ? "slipfront does not need it"
+                                               : "no name of a quantity";
+    column.looks_physical =
+        c.role == Role::unknown && (c.looks_physical || (counts_[i].numbers > 0 && counts_[i].texts == 0));
+    all.columns.push_back(std::move(column));
+  }
+  all.map = map_text(all, map_);
+  return all;
+}
 
-TableNotes read_csv(std::string_view text, const std::string& file, const Sink& sink, const TableOptions& options) {
-  const ColumnMap map = parse_column_map(options.map, options.map_file);
+/// Calls `use` with the table. An error gets the name of the file.
+template <class Use>
+auto with_table(std::string_view text, const std::string& file, const TableOptions& options, Use&& use) {
   try {
-    return read_table(text, file, sink, map);
+    return use(CsvTable(text, file, options));
   } catch (const InputError& error) {
     Complaint c = error.complaint();
     if (c.file.empty()) c.file = file;
     throw InputError(c);
   }
+}
+
+}  // namespace
+
+TableNotes read_csv(std::string_view text, const std::string& file, const Sink& sink, const TableOptions& options) {
+  return with_table(text, file, options, [&](const CsvTable& table) {
+    table.require_readable();
+    table.read(sink);
+    return table.notes();
+  });
+}
+
+TableDescription describe_csv(std::string_view text, const std::string& file, const TableOptions& options) {
+  return with_table(text, file, options, [](const CsvTable& table) { return table.description(); });
 }
 
 extern const Format csv_format;

@@ -1,153 +1,127 @@
-#include "catalogue/csv/csv_names.hpp"
-
 #include <algorithm>
-#include <utility>
+#include <map>
+
+#include "catalogue/csv/csv.hpp"
+#include "foundation/text/characters.hpp"
+#include "foundation/text/trimmed.hpp"
 
 namespace slipfront::catalogue {
 namespace {
 
-using Role = Column::Role;
-using Name = std::pair<std::string_view, std::string_view>;
+struct Name {
+  Word kind;
+  std::string_view meaning, spellings;  ///< spellings in small letters, without blanks inside, separated by blanks
+};
 
+/// All words that the reader of tables knows, in addition to the names of the quantities. A word can have several
+/// kinds.
 constexpr Name names[] = {
-    {"rupturespeed", "rupture_velocity"},
-    {"rupturepropagationvelocity", "rupture_velocity"},
-    {"rupturepropagationspeed", "rupture_velocity"},
-    {"propagationvelocity", "rupture_velocity"},
-    {"propagationspeed", "rupture_velocity"},
-    {"propagationrate", "rupture_velocity"},
-    {"migrationvelocity", "rupture_velocity"},
-    {"migrationspeed", "rupture_velocity"},
-    {"migrationrate", "rupture_velocity"},
-    {"frontvelocity", "rupture_velocity"},
-    {"frontspeed", "rupture_velocity"},
-    {"vr", "rupture_velocity"},
-    {"rv", "rupture_velocity"},
-    {"vrup", "rupture_velocity"},
-    {"avvr", "rupture_velocity"},
-    {"sliprate", "slip_velocity"},
-    {"slipspeed", "slip_velocity"},
-    {"slidingvelocity", "slip_velocity"},
-    {"slippingvelocity", "slip_velocity"},
-    {"avtr", "rise_time"},
-    {"delta\xCF\x83", "stress_drop"},
-    {"\xCE\x94\xCF\x83", "stress_drop"},
-    {"effectivenormalstress", "normal_stress"},
-    {"rigidity", "shear_modulus"},
-    {"poissonsratio", "poisson_ratio"},
-    {"poisson'sratio", "poisson_ratio"},
-    {"swavevelocity", "s_wave_speed"},
-    {"shearwavevelocity", "s_wave_speed"},
-    {"shearwavespeed", "s_wave_speed"},
-    {"vsathypocentre", "s_wave_speed"},
-    {"vsathypocenter", "s_wave_speed"},
-    {"pwavevelocity", "p_wave_speed"},
-    {"vpathypocentre", "p_wave_speed"},
-    {"vpathypocenter", "p_wave_speed"},
-    {"m0", "moment"},
-    {"mo", "moment"},
-    {"scalarmoment", "moment"},
-    {"seismicmoment", "moment"},
-    {"mw", "moment_magnitude"},
-    {"magnitudemw", "moment_magnitude"},
-    {"length", "rupture_length"},
-    {"faultlength", "rupture_length"},
-    {"alongstrikelength", "rupture_length"},
-    {"lengthalongstrike", "rupture_length"},
-    {"width", "rupture_width"},
-    {"faultwidth", "rupture_width"},
-    {"downdipwidth", "rupture_width"},
-    {"area", "rupture_area"},
-    {"faultarea", "rupture_area"},
-    {"sliparea", "rupture_area"},
+    {Word::quantity, "rupture_velocity",
+     "rupturespeed rupturepropagationvelocity rupturepropagationspeed propagationvelocity propagationspeed "
+     "propagationrate migrationvelocity migrationspeed migrationrate frontvelocity frontspeed vr rv vrup avvr"},
+    {Word::quantity, "slip_velocity", "sliprate slipspeed slidingvelocity slippingvelocity"},
+    {Word::quantity, "rise_time", "avtr"},
+    {Word::quantity, "stress_drop", "delta\xCF\x83 \xCE\x94\xCF\x83"},
+    {Word::quantity, "normal_stress", "effectivenormalstress sigman \xCF\x83n"},
+    {Word::quantity, "shear_stress", "tau \xCF\x84 shearstressbefore stressbefore initialshearstress initialstress"},
+    {Word::quantity, "shear_stress_after",
+     "tauafter shearstressafter stressafter residualshearstress residualstress finalshearstress finalstress"},
+    {Word::quantity, "shear_modulus", "rigidity"},
+    {Word::quantity, "poisson_ratio", "poissonsratio poisson'sratio"},
+    {Word::quantity, "s_wave_speed", "swavevelocity shearwavevelocity shearwavespeed vsathypocentre vsathypocenter vs"},
+    {Word::quantity, "p_wave_speed", "pwavevelocity vpathypocentre vpathypocenter vp"},
+    {Word::quantity, "moment", "m0 mo scalarmoment seismicmoment"},
+    {Word::quantity, "moment_magnitude", "mw magnitudemw"},
+    {Word::quantity, "rupture_length", "length faultlength alongstrikelength lengthalongstrike"},
+    {Word::quantity, "rupture_width", "width faultwidth downdipwidth"},
+    {Word::quantity, "rupture_area", "area faultarea sliparea"},
+    {Word::text, "name", "name event eventname earthquake front"},
+    {Word::text, "identifier", "evid eventid id no #"},
+    {Word::text, "date", "date datetime origintime"},
+    {Word::text, "start", "start startdate starttime startyear datestart tstart begin begindate datebegin"},
+    {Word::text, "end", "end enddate endtime endyear dateend tend"},
+    {Word::text, "year", "year yyyy yr"},
+    {Word::text, "month", "month"},
+    {Word::text, "day", "day"},
+    {Word::text, "kind", "kind"},
+    {Word::text, "citation", "citation source"},
+    {Word::text, "note", "note notes"},
+    {Word::text, "study", "study"},
+    {Word::text, "slip_velocity_is", "slipvelocityis"},
+    {Word::text, "rupture_velocity_is", "rupturevelocityis"},
+    {Word::text, "stress_drop_is", "stressdropis"},
+    {Word::text, "front_threshold", "frontthreshold"},
+    {Word::unused, "ignore",
+     "lat latitude lon long lng longitude depth dep strike dip rake ml mb ms md m mag magnitude magtype type number "
+     "index doi url reference ref region location place zone fault segment mechanism time hour minute second hh mm ss "
+     "comment comments agency catalog tag eventtag x y z evlo evla evdp authors author longitudedeg latitudedeg "
+     "lastname mww momentmagnitudetype"},
+    {Word::neutral, "neutral",
+     "mean average avg ave av estimated est est. observed obs measured seismic geodetic coseismic source event rupture "
+     "fault total local"},
+    {Word::physical, "physical",
+     "velocity speed slip stress rate drop duration moment energy modulus frequency length width area radius strain "
+     "friction displacement efficiency rigidity period pressure density sliprate stressdrop risetime fc offset "
+     "viscosity"},
+    {Word::about, "how", "how"},
+    {Word::about, "ignore", "type source method note notes"},
+    {Word::prefix, "largest", "peak max maximum"},
+    {Word::prefix, "apparent", "apparent"},
+    {Word::prefix, "static", "static"},
+    {Word::range, "low", "min minimum"},
+    {Word::range, "high", "max maximum"},
+    {Word::error, "1",
+     "err error errors sd std stdev stddev sigma unc uncertainty +- +/- \xC2\xB1 \xCF\x83 1\xCF\x83 1sigma 1-sigma "
+     "stderr"},
+    {Word::error, "2", "2\xCF\x83 2sigma 2-sigma 2sd"},
+    {Word::above, "always", "plus +"},
+    {Word::above, "of an error", "upper up pos"},
+    {Word::below, "always", "minus -"},
+    {Word::below, "of an error", "lower low neg"},
+    {Word::patch, "slip", "slip strikeslip dipslip"},
+    {Word::patch, "slip of a patch", "ss ds"},
+    {Word::patch, "x", "lat latitude x x==ew x==ns easting east"},
+    {Word::patch, "y", "lon long longitude lng y y==ns y==ew northing north"},
+    {Word::patch, "depth", "depth dep z top"},
+    {Word::patch, "patch", "rake strike dip trup rise segment subfault patch length rupture tini"},
+    {Word::absent, "absent",
+     "nan -nan n/a na n.a. null none - -- --- ? * n.d. unknown ... \xE2\x80\x93 \xE2\x80\x94 \xE2\x80\xA6 \xC2\xA0 "
+     "\xE2\x88\x92"},
 };
 
-constexpr std::pair<std::string_view, Role> roles[] = {
-    {"name", Role::name},         {"event", Role::name},         {"eventname", Role::name}, {"earthquake", Role::name},
-    {"evid", Role::identifier},   {"eventid", Role::identifier}, {"id", Role::identifier},  {"no", Role::identifier},
-    {"#", Role::identifier},      {"date", Role::date},          {"datetime", Role::date},  {"origintime", Role::date},
-    {"startdate", Role::date},    {"starttime", Role::date},     {"year", Role::year},      {"yyyy", Role::year},
-    {"yr", Role::year},           {"month", Role::month},        {"day", Role::day},        {"kind", Role::kind},
-    {"citation", Role::citation}, {"source", Role::citation},    {"note", Role::note},      {"notes", Role::note},
-};
+using Index = std::map<std::pair<Word, std::string>, std::string_view, std::less<>>;
 
-constexpr std::string_view unused[] = {"lat",         "latitude",
-                                       "lon",         "long",
-                                       "lng",         "longitude",
-                                       "depth",       "dep",
-                                       "strike",      "dip",
-                                       "rake",        "ml",
-                                       "mb",          "ms",
-                                       "md",          "m",
-                                       "mag",         "magnitude",
-                                       "magtype",     "type",
-                                       "number",      "index",
-                                       "doi",         "url",
-                                       "reference",   "ref",
-                                       "region",      "location",
-                                       "place",       "zone",
-                                       "fault",       "segment",
-                                       "mechanism",   "time",
-                                       "hour",        "minute",
-                                       "second",      "hh",
-                                       "mm",          "ss",
-                                       "enddate",     "endtime",
-                                       "comment",     "comments",
-                                       "agency",      "catalog",
-                                       "tag",         "eventtag",
-                                       "x",           "y",
-                                       "z",           "evlo",
-                                       "evla",        "evdp",
-                                       "authors",     "author",
-                                       "study",       "longitudedeg",
-                                       "latitudedeg", "lastname",
-                                       "mww",         "momentmagnitudetype"};
-
-constexpr std::string_view neutral[] = {"mean",     "average", "avg",      "ave",     "av",       "estimated", "est",
-                                        "observed", "obs",     "measured", "seismic", "geodetic", "coseismic", "source",
-                                        "event",    "rupture", "fault",    "total",   "local",    "est."};
-
-constexpr std::string_view physical_words[] = {
-    "velocity",   "speed",        "slip",       "stress",   "rate",     "drop",     "duration", "moment",
-    "energy",     "modulus",      "frequency",  "length",   "width",    "area",     "radius",   "strain",
-    "friction",   "displacement", "efficiency", "rigidity", "period",   "pressure", "density",  "sliprate",
-    "stressdrop", "risetime",     "fc",         "offset",   "viscosity"};
-
-template <class Words>
-bool contains(const Words& words, std::string_view word) {
-  return std::find(std::begin(words), std::end(words), word) != std::end(words);
+Index index_of_names() {
+  Index index;
+  for (const Name& name : names)
+    for (std::string_view rest = name.spellings; !rest.empty();) {
+      const std::size_t end = std::min(rest.find(' '), rest.size());
+      index.emplace(std::pair(name.kind, rest.substr(0, end)), name.meaning);
+      rest = trimmed(rest.substr(end));
+    }
+  for (const auto* keys : {&quantity_keys(), &front_keys()})
+    for (const Key& key : *keys) {
+      std::string joined(key.name);
+      joined.erase(std::remove(joined.begin(), joined.end(), '_'), joined.end());
+      index.emplace(std::pair(Word::quantity, std::move(joined)), key.name);
+    }
+  return index;
 }
 
 }  // namespace
 
-const Key* quantity_of_name(std::string_view name) {
-  for (const auto& [published, key] : names)
-    if (name == published) return find_key(key);
-  for (const Key& key : quantity_keys()) {
-    if (key.name == "friction_coefficient") continue;  // in publications this is not C, so only the exact title counts
-    std::string joined(key.name);
-    joined.erase(std::remove(joined.begin(), joined.end(), '_'), joined.end());
-    if (name == joined) return &key;
-  }
-  return nullptr;
+std::string_view meaning_of(std::string_view word, Word kind) {
+  static const Index index = index_of_names();
+  const auto at = index.find(std::pair(kind, std::string(word)));
+  return at == index.end() ? std::string_view() : at->second;
 }
 
-std::optional<Role> role_of_name(std::string_view name) {
-  for (const auto& [word, role] : roles)
-    if (name == word) return role;
-  return contains(unused, name) ? std::optional(Role::unused) : std::nullopt;
-}
-
-bool is_neutral(std::string_view word) { return contains(neutral, word); }
-
-bool is_physical_word(std::string_view word) { return contains(physical_words, word); }
-
-double deviations_of(std::string_view word) {
-  constexpr std::string_view one[] = {"err",      "error",    "errors",    "sd",          "std",     "stdev",
-                                      "stddev",   "sigma",    "unc",       "uncertainty", "+-",      "+/-",
-                                      "\xC2\xB1", "\xCF\x83", "1\xCF\x83", "1sigma",      "1-sigma", "stderr"};
-  constexpr std::string_view two[] = {"2\xCF\x83", "2sigma", "2-sigma", "2sd"};
-  return contains(one, word) ? 1 : contains(two, word) ? 2 : 0;
+bool is_absent(std::string_view cell, const std::vector<std::string>& missing) {
+  cell = trimmed(cell);
+  if (cell.empty() || std::find(missing.begin(), missing.end(), cell) != missing.end()) return true;
+  if (!meaning_of(small_letters(cell), Word::absent).empty()) return true;
+  const auto number = medium::number(cell);
+  return number && (*number == -99 || *number == -999 || *number == -9999);
 }
 
 }  // namespace slipfront::catalogue

@@ -3,16 +3,13 @@
 #include <limits>
 
 #include "catalogue/fsp/fsp.hpp"
+#include "foundation/text/characters.hpp"
 #include "foundation/text/latin1.hpp"
 
 namespace slipfront::catalogue::fsp {
 namespace {
 
 bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20 || c == 0x7f; }
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool is_letter(char c) { return lower(c) >= 'a' && lower(c) <= 'z'; }
 
 /// A number at the start of a text, and its length in characters.
 struct Leading {
@@ -104,7 +101,7 @@ bool same(std::string_view a, std::string_view b) { return a.size() == b.size() 
 bool begins(std::string_view text, std::string_view with) {
   if (text.size() < with.size()) return false;
   for (std::size_t k = 0; k < with.size(); ++k) {
-    if (lower(text[k]) != lower(with[k])) return false;
+    if (small_letter(text[k]) != small_letter(with[k])) return false;
   }
   return true;
 }

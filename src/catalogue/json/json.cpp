@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -32,17 +33,11 @@ std::optional<double> number_of(const Json& object, const char* key) {
 
 /// The date of a time in milliseconds since 1970, by the civil calendar.
 std::string date_of(double milliseconds) {
-  if (!(std::fabs(milliseconds) < 1e15)) return {};
-  const auto days = static_cast<long long>(std::floor(milliseconds / 86400e3)) + 719468;
-  const long long era = (days >= 0 ? days : days - 146096) / 146097;
-  const long long day_of_era = days - era * 146097;
-  const long long year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36524 - day_of_era / 146096) / 365;
-  const long long day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-  const long long part = (5 * day_of_year + 2) / 153;
-  const long long day = day_of_year - (153 * part + 2) / 5 + 1, month = part < 10 ? part + 3 : part - 9;
-  const long long year = year_of_era + era * 400 + (month <= 2 ? 1 : 0);
-  const auto two = [](long long n) { return (n < 10 ? "0" : "") + std::to_string(n); };
-  return std::to_string(year) + "-" + two(month) + "-" + two(day);
+  if (!(std::fabs(milliseconds) < 1e14)) return {};  // from -1199 to 5138
+  const auto days = std::chrono::floor<std::chrono::days>(std::chrono::milliseconds(std::llround(milliseconds)));
+  const std::chrono::year_month_day date{std::chrono::sys_days(days)};
+  const auto two = [](unsigned n) { return (n < 10 ? "-0" : "-") + std::to_string(n); };
+  return std::to_string(static_cast<int>(date.year())) + two(unsigned(date.month())) + two(unsigned(date.day()));
 }
 
 /// A property of a finite-fault product, in the unit in which USGS gives it.
@@ -55,22 +50,31 @@ constexpr Property properties_of_products[] = {{"average-rupture-velocity", "rup
                                                {"model-length", "rupture_length", "km"},
                                                {"model-width", "rupture_width", "km"}};
 
-void read_properties(Observation& o, const Json& p) {
-  for (const char* key : {"title", "place", "eventsource"})
+/// The properties of the finite-fault product inside the properties of an event, or else those themselves.
+const Json& product_of(const Json& p) {
+  const Json* products = find(p, "products");
+  const Json* models = products ? find(*products, "finite-fault") : nullptr;
+  const Json* model = models && models->is_array() && !models->empty() ? find(models->front(), "properties") : nullptr;
+  return model ? *model : p;
+}
+
+/// Reads the properties of an event, and the quantities of a finite-fault product, which may be the same object.
+void read_properties(Observation& o, const Json& p, const Json& product) {
+  for (const char* key : {"title", "place", "location", "eventsource"})
     if (o.name.empty()) o.name = text_of(p, key);
   if (const auto time = number_of(p, "time")) o.date = date_of(*time);
   if (o.date.empty()) o.date = text_of(p, "eventtime").substr(0, 10);
   o.kind = text_of(p, "type");
   o.citation = text_of(p, "url");
   for (const auto& [name, quantity, unit] : properties_of_products) {
-    const auto value = number_of(p, name);
+    const auto value = number_of(product, name);
     if (!value || !(*value > 0) || *value == 999) continue;
     store(o, *find_key(quantity), shortest(*value), unit);
     o.warnings.push_back(std::string(name) + " has no unit in the file: taken in " + unit);
   }
   const std::string type = text_of(p, "magType");
-  const auto magnitude = number_of(p, type.empty() ? "derived-magnitude" : "mag");
-  const bool is_mw = type.starts_with("mw") || type.starts_with("Mw") || (type.empty() && find(p, "derived-magnitude"));
+  const auto magnitude = type.empty() ? number_of(product, "derived-magnitude") : number_of(p, "mag");
+  const bool is_mw = type.empty() || type.starts_with("mw") || type.starts_with("Mw");
   if (magnitude && is_mw) store(o, *find_key("moment_magnitude"), shortest(*magnitude), {});
 }
 
@@ -93,7 +97,7 @@ Observation event_of(const Json& p, const std::string& file, const std::string& 
   Observation o;
   o.file = file;
   o.line = 1;
-  read_properties(o, p);
+  read_properties(o, p, product_of(p));
   if (!is_observed(o))
     throw InputError({.line = 1,
                       .problem = event_text(o, p) + " has no quantity that slipfront uses",

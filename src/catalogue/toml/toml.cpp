@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <string>
 
 #include "catalogue/format.hpp"
@@ -37,17 +36,10 @@ void read_quantity(Observation& o, const Key& key, const std::string& full_key, 
   }
 }
 
-/// Keys that state the meaning of an observed quantity.
-constexpr std::array<std::string_view, 4> meanings = {"slip_velocity_is", "rupture_velocity_is", "stress_drop_is",
-                                                      "front_threshold"};
-
-void read_meaning(Observation& o, std::string_view key, const std::string& full_key, const toml::node& node) {
+void read_text(Observation& o, std::string_view key, const std::string& full_key, const toml::node& node) {
   try {
-    const std::string text = node.is_floating_point() ? quantity_text(node) : text_value(node, full_key);
-    if (key == "slip_velocity_is") o.slip_velocity_is = friction_ratio::measure_named(text);
-    if (key == "rupture_velocity_is") o.rupture_velocity_is = rupture_velocity_meaning(text);
-    if (key == "stress_drop_is") o.stress_drop_is = stress_drop_meaning(text);
-    if (key == "front_threshold") o.front_threshold = parse_front_threshold(text);
+    store_text(o, key,
+               node.is_floating_point() && key == "front_threshold" ? quantity_text(node) : text_value(node, full_key));
   } catch (const InputError& error) {
     Complaint c = error.complaint();
     c.key = full_key;
@@ -59,8 +51,7 @@ void read_meaning(Observation& o, std::string_view key, const std::string& full_
 /// Reads the table [event], with the observed quantities and texts, or the table [medium], with the elastic constants.
 void read_table(Observation& o, const toml::table& table, const std::string& name, bool observed) {
   std::vector<std::string_view> known;
-  if (observed) known = {"name", "date", "kind", "citation", "note"};
-  if (observed) known.insert(known.end(), meanings.begin(), meanings.end());
+  if (observed) known = text_keys();
   for (const Key& key : quantity_keys())
     if ((key.measured != nullptr) == observed) known.push_back(key.name);
   for (const auto& [key_node, node] : table) {
@@ -69,18 +60,8 @@ void read_table(Observation& o, const toml::table& table, const std::string& nam
     const Key* quantity = find_key(key);
     if (quantity && (quantity->measured != nullptr) == observed) {
       read_quantity(o, *quantity, full_key, node);
-    } else if (observed && key == "name") {
-      o.name = text_value(node, full_key);
-    } else if (observed && key == "date") {
-      o.date = text_value(node, full_key);
-    } else if (observed && key == "kind") {
-      o.kind = text_value(node, full_key);
-    } else if (observed && key == "citation") {
-      o.citation = text_value(node, full_key);
-    } else if (observed && key == "note") {
-      o.note = text_value(node, full_key);
-    } else if (observed && std::find(meanings.begin(), meanings.end(), key) != meanings.end()) {
-      read_meaning(o, key, full_key, node);
+    } else if (observed && std::find(text_keys().begin(), text_keys().end(), key) != text_keys().end()) {
+      read_text(o, key, full_key, node);
     } else {
       const std::string other = observed ? "[medium]" : "[event]";
       throw InputError({.line = line_of(node),

@@ -52,4 +52,19 @@ std::string from_latin1(std::string_view text) {
   return out;
 }
 
+std::optional<std::string> lines_in_utf8(std::string_view text) {
+  const bool old_ends = text.find('\r') != std::string_view::npos && text.find('\n') == std::string_view::npos;
+  if (!old_ends && is_utf8(text)) return std::nullopt;
+  std::string out;
+  const char end_of_line = old_ends ? '\r' : '\n';
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(end_of_line), text.size());
+    const std::string_view line = text.substr(0, end);
+    out += is_utf8(line) ? std::string(line) : from_latin1(line);
+    if (end < text.size()) out += '\n';
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return out;
+}
+
 }  // namespace slipfront
