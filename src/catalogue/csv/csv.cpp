@@ -40,6 +40,7 @@ class CsvTable {
   void find_missing_units();
   bool describes_subfaults() const;
   std::string title(std::size_t column) const;
+  bool looks_like_quantity(std::size_t column) const;
 
   std::string storage_;
   std::string_view text_;
@@ -135,6 +136,12 @@ std::string CsvTable::title(std::size_t column) const {
   return title.empty() ? "column " + std::to_string(column + 1) : title;
 }
 
+/// Whether a column that is not understood looks like a quantity.
+bool CsvTable::looks_like_quantity(std::size_t column) const {
+  const Column& c = layout_.columns[column];
+  return c.role == Role::unknown && (c.looks_physical || (counts_[column].numbers > 0 && counts_[column].texts == 0));
+}
+
 /// Whether the rows are the subfaults of one event: slip at positions, with depths, and neither names, dates,
 /// magnitudes nor velocities of events.
 bool CsvTable::describes_subfaults() const {
@@ -207,8 +214,7 @@ TableNotes CsvTable::notes() const {
     const Count& n = counts_[i];
     if (c.is_used() || (trimmed(c.title).empty() && n.numbers + n.texts == 0)) continue;
     notes.ignored.push_back(title(i));
-    if (c.role == Role::unknown && (c.looks_physical || (n.numbers > 0 && n.texts == 0)))
-      notes.ignored_quantities.push_back(title(i));
+    if (looks_like_quantity(i)) notes.ignored_quantities.push_back(title(i));
   }
   return notes;
 }
@@ -229,8 +235,7 @@ TableDescription CsvTable::description() const {
       column.reason = !c.reason.empty()        ? c.reason
                       : c.role == Role::unused ? "slipfront does not need it"
                                                : "no name of a quantity";
-    column.looks_physical =
-        c.role == Role::unknown && (c.looks_physical || (counts_[i].numbers > 0 && counts_[i].texts == 0));
+    column.looks_physical = looks_like_quantity(i);
     all.columns.push_back(std::move(column));
   }
   all.map = map_text(all, map_);
