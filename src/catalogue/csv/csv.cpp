@@ -98,7 +98,9 @@ std::size_t CsvTable::for_each_row(Take&& take, Comment&& comment) const {
 void CsvTable::count(const std::vector<std::string>& cells) {
   ++rows_;
   for (std::size_t i = 0; i < std::min(cells.size(), counts_.size()); ++i) {
-    if (is_absent(cells[i], map_.missing)) continue;
+    const Column& c = layout_.columns[i];
+    const bool matters = c.role == Role::unknown || (c.is_quantity() && c.unit.empty());
+    if (!matters || is_absent(cells[i], map_.missing)) continue;
     std::string text = medium::plain_number(cells[i]);
     std::replace(text.begin(), text.end(), ',', '.');
     if (!text.empty() && std::string_view("<>~").find(text.front()) != std::string_view::npos) text.erase(0, 1);
