@@ -55,7 +55,8 @@ constexpr std::array<Quantity, 8> observables = {{{"rupture_velocity", &Observat
 py::dict row_of(const catalogue::Entry& entry, const medium::Defaults& defaults) {
   const Observation& o = entry.observation;
   py::dict row;
-  row["name"] = o.name, row["kind"] = o.kind, row["citation"] = o.citation, row["study"] = o.study, row["line"] = o.line;
+  row["name"] = o.name, row["kind"] = o.kind, row["citation"] = o.citation, row["study"] = o.study,
+  row["line"] = o.line;
   row["front_threshold"] = o.front_threshold;
   row["rupture_velocity_is"] = catalogue::name_of(o.rupture_velocity_is);
   for (const Quantity& q : observables) {
@@ -82,8 +83,8 @@ catalogue::TableOptions table_options(const std::string& map, const std::string&
   return {.map = map, .map_file = "columns"};
 }
 
-/// The fronts of a laboratory table: name, line, error, and the measured quantities. Also the titles of the columns that
-/// are not used, and notes.
+/// The fronts of a laboratory table: name, line, error, and the measured quantities. Also the titles of the columns
+/// that are not used, and notes.
 py::tuple fronts(const std::string& text, const std::string& file, const std::array<std::string, 2>& map,
                  const std::vector<std::string>& required) {
   catalogue::TableOptions options = table_options(map[0], map[1]);

@@ -40,6 +40,7 @@ class CsvTable {
   void find_missing_units();
   bool describes_subfaults() const;
   std::string title(std::size_t column) const;
+  bool looks_like_quantity(std::size_t column) const;
 
   std::string storage_;
   std::string_view text_;
@@ -97,7 +98,9 @@ std::size_t CsvTable::for_each_row(Take&& take, Comment&& comment) const {
 void CsvTable::count(const std::vector<std::string>& cells) {
   ++rows_;
   for (std::size_t i = 0; i < std::min(cells.size(), counts_.size()); ++i) {
-    if (is_absent(cells[i], map_.missing)) continue;
+    const Column& c = layout_.columns[i];
+    const bool matters = c.role == Role::unknown || (c.is_quantity() && c.unit.empty());
+    if (!matters || is_absent(cells[i], map_.missing)) continue;
     std::string text = medium::plain_number(cells[i]);
     std::replace(text.begin(), text.end(), ',', '.');
     if (!text.empty() && std::string_view("<>~").find(text.front()) != std::string_view::npos) text.erase(0, 1);
@@ -133,6 +136,12 @@ void CsvTable::find_missing_units() {
 std::string CsvTable::title(std::size_t column) const {
   const std::string title(trimmed(layout_.columns[column].title));
   return title.empty() ? "column " + std::to_string(column + 1) : title;
+}
+
+/// Whether a column that is not understood looks like a quantity.
+bool CsvTable::looks_like_quantity(std::size_t column) const {
+  const Column& c = layout_.columns[column];
+  return c.role == Role::unknown && (c.looks_physical || (counts_[column].numbers > 0 && counts_[column].texts == 0));
 }
 
 /// Whether the rows are the subfaults of one event: slip at positions, with depths, and neither names, dates,
@@ -207,8 +216,7 @@ TableNotes CsvTable::notes() const {
     const Count& n = counts_[i];
     if (c.is_used() || (trimmed(c.title).empty() && n.numbers + n.texts == 0)) continue;
     notes.ignored.push_back(title(i));
-    if (c.role == Role::unknown && (c.looks_physical || (n.numbers > 0 && n.texts == 0)))
-      notes.ignored_quantities.push_back(title(i));
+    if (looks_like_quantity(i)) notes.ignored_quantities.push_back(title(i));
   }
   return notes;
 }
@@ -229,8 +237,7 @@ TableDescription CsvTable::description() const {
       column.reason = !c.reason.empty()        ? c.reason
                       : c.role == Role::unused ? "slipfront does not need it"
                                                : "no name of a quantity";
-    column.looks_physical =
-        c.role == Role::unknown && (c.looks_physical || (counts_[i].numbers > 0 && counts_[i].texts == 0));
+    column.looks_physical = looks_like_quantity(i);
     all.columns.push_back(std::move(column));
   }
   all.map = map_text(all, map_);

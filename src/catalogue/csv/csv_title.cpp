@@ -276,7 +276,7 @@ Column whole_title(const std::string& title, const std::vector<Key>& keys) {
 Column bare_error(const std::string& title, const Title& t, const std::vector<Column>& before,
                   const std::vector<Key>& keys) {
   Column none = not_understood(title, "an error without its quantity");
-  std::string name, owner;
+  std::string name;
   for (const std::string& group : t.groups)
     if (const Column inside = whole_title(group, keys); inside.role == Role::value)
       name = std::string(inside.key->name) + " " + t.small[0];

@@ -63,7 +63,7 @@ constexpr Kind kinds[] = {
      [](Text t) { return t.starts_with("\xD0\xCF\x11\xE0"); }, true, true, true},
     {"a PDF document", "its table saved as CSV", [](Text t) { return t.starts_with("%PDF-"); }, true, true, true},
     {"a compressed file", "the unpacked file", [](Text t) { return t.starts_with("\x1F\x8B"); }, true, true, true},
-    {"a NetCDF or HDF5 file", "a table or TOML file; slipfront plot and slipfront.open read results",
+    {"a NetCDF file (HDF5)", "a table or TOML file; slipfront plot and slipfront.open read results",
      [](Text t) { return t.starts_with("\x89HDF") || t.starts_with("CDF\x01") || t.starts_with("CDF\x02"); }, true,
      true, true},
     {"a moment tensor (CMTSOLUTION)", "a TOML file with moment, duration and velocities in [event]",

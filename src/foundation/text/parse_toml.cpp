@@ -59,10 +59,8 @@ void refuse_deep_nesting(std::string_view text, const std::string& file) {
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);  // byte order mark
-  if (text.substr(0, 4) == "\x89HDF" || text.find('\0') != std::string_view::npos)
-    throw InputError({.file = file,
-                      .problem = text.substr(0, 4) == "\x89HDF" ? "a NetCDF file" : "not a text: it holds a zero byte",
-                      .allowed = "TOML 1.0"});
+  if (text.find('\0') != std::string_view::npos)
+    throw InputError({.file = file, .problem = "not a text: it holds a zero byte", .allowed = "TOML 1.0"});
   refuse_deep_nesting(text, file);
   // We do not pass the file name: toml++ would store it in a function that must not throw.
   toml::parse_result result = toml::parse(text);
