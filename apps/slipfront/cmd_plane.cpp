@@ -12,8 +12,8 @@ namespace {
 using namespace slipfront;
 
 /// The lines that a run follows, in words.
-std::string lines_in_words(const scenario::Scenario& s, scenario::Lines lines) {
-  if (lines == scenario::Lines::direct) {
+std::string lines_in_words(const scenario::Scenario& s, scenario::SolverKind solver) {
+  if (solver == scenario::SolverKind::plane_direct) {
     const double scale = scenario::scale_of_lines(s);
     return fmt::format("every dislocation line at scale {}, which needs about {:.2g} GB of memory,", scale,
                        plane::memory_of_direct(s.plane->problem, {.scale = scale}) / 1e9);
@@ -29,7 +29,7 @@ std::string plane_in_words(const run::Plan& plan, output::Run&) {
   return fmt::format(
       "follow {} over x = {} ... {}, y = {} ... {} to t = {}, with results in {} x {} cells at {} times: {:.1g} GB on "
       "the disk with -o",
-      lines_in_words(s, plan.lines()), s.in_results(p.left, "b / A"), s.in_results(p.right, "b / A"),
+      lines_in_words(s, plan.solver), s.in_results(p.left, "b / A"), s.in_results(p.right, "b / A"),
       s.in_results(ratio * p.bottom, "b / A"), s.in_results(ratio * p.top, "b / A"), s.in_results(s.end, "b / (c A)"),
       plan.on_plane.nx, plan.on_plane.ny, plan.times().size(), plan.need.disk / 1e9);
 }

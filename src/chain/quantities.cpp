@@ -10,8 +10,8 @@ using output::Value;
 const Grid& grid_of(const Report& e) { return e.run.chain().problem().grid; }
 
 double site_updates_per_second(const Report& e) {
-  const double updates = static_cast<double>(grid_of(e).sites) * static_cast<double>(e.steps);
-  return e.stepping > 0 ? updates / e.stepping : 0;
+  const double updates = static_cast<double>(grid_of(e).sites) * static_cast<double>(e.spent.steps);
+  return e.spent.stepping > 0 ? updates / e.spent.stepping : 0;
 }
 
 bool is_loaded(const Report& e) { return e.run.chain().problem().loading.acts(); }
@@ -46,15 +46,15 @@ constexpr output::Quantity<Report> of_run[] = {
      [](const Report& e) -> Value { return grid_of(e).spacing; }},
     {output::step_count, [](const Report& e) -> Value { return e.run.chain().steps(); }},
     {{"ranks", "number of processes", "", ""},
-     [](const Report& e) -> Value { return static_cast<long>(e.ranks); },
+     [](const Report& e) -> Value { return static_cast<long>(e.spent.ranks); },
      output::Kind::of_machine},
     {{"threads", "threads of each rank", "", ""},
-     [](const Report& e) -> Value { return static_cast<long>(e.threads); },
+     [](const Report& e) -> Value { return static_cast<long>(e.spent.threads); },
      output::Kind::of_machine},
     {{"site_updates_per_second", "site updates per second, including output", "", ""},
      [](const Report& e) -> Value { return site_updates_per_second(e); },
      output::Kind::of_machine},
-    {output::wall_time, [](const Report& e) -> Value { return e.wall; }, output::Kind::of_machine},
+    {output::wall_time, [](const Report& e) -> Value { return e.spent.wall; }, output::Kind::of_machine},
 };
 
 }  // namespace

@@ -78,7 +78,7 @@ class Checkpoints {
 
 /// Warnings of a finished run that follow from its plan.
 std::vector<std::string> notes_on_results(const Plan& plan) {
-  if (plan.lines() != scenario::Lines::direct || plan.scenario.chain.scale) return {};
+  if (plan.solver != scenario::SolverKind::plane_direct || plan.scenario.chain.scale) return {};
   const double scale = scenario::scale_of_lines(plan.scenario);
   if (!(scale > 1)) return {};
   return {"chain.scale is not given. At scale " + digits(scale) +

@@ -34,27 +34,49 @@ bool held_to_tolerance(const Row& row) {
          rule == ErrorRule::peak;
 }
 
-/// Runs the scenario to its end with `cells` cells, tolerances that are `coarser` times larger, and no outputs before
-/// the end. Returns its summary, which is empty if `interrupted` returned true. `cost`, unless null, gets steps times
-/// cells.
+/// Carries out a coarser run. Returns its summary, which is empty if `interrupted` returned true. `steps`, unless null,
+/// gets their number.
+std::vector<Row> summary_of(const Plan& plan, const std::function<bool()>& interrupted, int threads = 1,
+                            long* steps = nullptr) {
+  const Result result = begin(plan, {.threads = threads});
+  try {
+    if (!result.run->go(interrupted)) return {};
+  } catch (const NumericsError&) {
+    // A pulse that has reached its end is too coarse, which makes the errors larger.
+    if (plan.is_on_plane() || !result.run->finished()) throw;
+  }
+  if (steps) *steps = result.run->steps();
+  return result.numbers({});
+}
+
+/// The summary that `task` returns; empty if it fails. The effect of such a run on the errors is unknown.
+template <class Task>
+std::vector<Row> if_possible(const Task& task) {
+  try {
+    return task();
+  } catch (const InputError&) {
+    return {};
+  } catch (const NumericsError&) {
+    return {};
+  }
+}
+
+/// The summary of the scenario with `cells` cells, tolerances that are `coarser` times larger, and no outputs before
+/// the end. `cost`, unless null, gets steps times cells.
 std::vector<Row> summary_with(int cells, const scenario::Scenario& scenario, const std::function<bool()>& interrupted,
                               double coarser = 4, double* cost = nullptr) {
   scenario::Scenario other = scenario;
   other.pulse.cells = cells;
   other.output.times.clear();
   other.output.every.reset();
-  pulse::Problem problem = scenario::pulse_problem(other);
-  problem.tolerance = std::fmin(coarser * problem.tolerance, 0.1);
-  problem.explicit_tolerance *= coarser;
-  problem.longest_step *= std::sqrt(coarser);
-  pulse::Run run(problem, scenario::pulse_schedule(other, problem));
-  try {
-    if (!run.go(interrupted)) return {};
-  } catch (const NumericsError&) {
-    if (!run.finished()) throw;  // the run has reached its end but is too coarse, which makes the errors larger
-  }
-  if (cost) *cost = static_cast<double>(run.steps()) * cells;
-  return rows_of({run, 0});
+  Plan plan = plan_of(scenario::SolverKind::pulse, std::move(other));
+  plan.pulse.tolerance = std::fmin(coarser * plan.pulse.tolerance, 0.1);
+  plan.pulse.explicit_tolerance *= coarser;
+  plan.pulse.longest_step *= std::sqrt(coarser);
+  long steps = 0;
+  std::vector<Row> summary = summary_of(plan, interrupted, 1, &steps);
+  if (cost && !summary.empty()) *cost = static_cast<double>(steps) * cells;
+  return summary;
 }
 
 /// The larger of two changes of a value: at the last doubling of the cells, and half of the one before, as for a scheme
@@ -150,20 +172,12 @@ void correct_places(const pulse::Run& run, const std::vector<Row>& summary, std:
 
 }  // namespace
 
-std::vector<std::string> add_pulse_errors(const pulse::Run& run, std::vector<Row>& summary,
-                                          const scenario::Scenario& scenario,
+std::vector<std::string> add_pulse_errors(const pulse::Run& run, std::vector<Row>& summary, const Plan& plan,
                                           const std::function<bool()>& interrupted) {
-  // The summary with a part of the cells. It is empty if such a run fails; its effect on the errors is then unknown.
+  const int cells = plan.scenario.pulse.cells;
   const auto coarse = [&](int part, double coarser) -> std::vector<Row> {
-    const int cells = scenario.pulse.cells / part;
-    if (cells < fewest_cells) return {};
-    try {
-      return summary_with(cells, scenario, interrupted, coarser);
-    } catch (const InputError&) {
-      return {};
-    } catch (const NumericsError&) {
-      return {};
-    }
+    if (cells / part < fewest_cells) return {};
+    return if_possible([&] { return summary_with(cells / part, plan.scenario, interrupted, coarser); });
   };
   const std::vector<Row> half = coarse(2, 4);
   const std::vector<Row> quarter = half.empty() ? half : coarse(4, 16);  // without `half`, no error can be estimated
@@ -178,7 +192,6 @@ std::vector<std::string> add_pulse_errors(const pulse::Run& run, std::vector<Row
     const double values[] = {quarter[i].number(), half[i].number(), summary[i].number()};
     if (!held_to_tolerance(summary[i]) || !grows(values[2], values[1], values[0])) continue;
     errors[i] = none;
-    const int cells = scenario.pulse.cells;
     warnings.push_back("pulse: " + std::string(summary[i].about.name) +
                        " grows with the cells: " + digits(values[0], 3) + ", " + digits(values[1], 3) + ", " +
                        digits(values[2], 3) + " with " + std::to_string(cells / 4) + ", " + std::to_string(cells / 2) +
@@ -191,35 +204,34 @@ std::vector<std::string> add_pulse_errors(const pulse::Run& run, std::vector<Row
 namespace {
 
 /// The numbers with a fraction of the cells or of the scale; empty if the run fails or is interrupted.
-std::vector<Row> on_plane_with_fewer_cells(scenario::Scenario s, int divisor, const std::function<bool()>& interrupted,
-                                           scenario::Lines lines, int threads) {
-  if (lines == scenario::Lines::direct) s.chain.scale = scenario::scale_of_lines(s) / divisor;
+std::vector<Row> on_plane_with_fewer_cells(const Plan& plan, int divisor, const std::function<bool()>& interrupted,
+                                           int threads) {
+  scenario::Scenario s = plan.scenario;
   s.plane->loops = std::max(4, s.plane->loops / divisor);
   s.plane->angles = std::max(8, s.plane->angles / divisor);
-  if (lines == scenario::Lines::averaged) s.plane->cells = std::max(8, s.plane->cells / divisor);
-  try {
-    plane::Schedule schedule = scenario::plane_schedule(s, lines);
-    schedule.times = {s.end};
-    plane::Run run(scenario::plane_solver(s, lines, threads), std::move(schedule));
-    return run.go(interrupted) ? rows_of(run, s.plane->probes, 0) : std::vector<Row>{};
-  } catch (const NumericsError&) {
-    return {};
-  } catch (const InputError&) {  // fewer cells do not see a held region
-    return {};
-  }
+  if (plan.solver == scenario::SolverKind::plane)
+    s.plane->cells = std::max(8, s.plane->cells / divisor);
+  else
+    s.chain.scale = scenario::scale_of_lines(s) / divisor;
+  return if_possible([&] {  // fewer cells may not see a held region
+    Plan coarse = plan_of(plan.solver, std::move(s));
+    coarse.on_plane.times = {coarse.scenario.end};
+    return summary_of(coarse, interrupted, threads);
+  });
 }
 
 }  // namespace
 
-void add_plane_errors(std::vector<Row>& summary, const scenario::Scenario& s, const std::function<bool()>& interrupted,
-                      scenario::Lines lines, int threads) {
-  if (lines == scenario::Lines::direct && s.chain.scale) {
+void add_plane_errors(std::vector<Row>& summary, const Plan& plan, const std::function<bool()>& interrupted,
+                      int threads) {
+  const scenario::Scenario& s = plan.scenario;
+  if (plan.solver == scenario::SolverKind::plane_direct && s.chain.scale) {
     scenario::Scenario by_default = s;
     by_default.chain.scale.reset();
     if (*s.chain.scale < scenario::scale_of_lines(by_default)) return;
   }
-  const std::vector<Row> half = on_plane_with_fewer_cells(s, 2, interrupted, lines, threads),
-                         quarter = on_plane_with_fewer_cells(s, 4, interrupted, lines, threads);
+  const std::vector<Row> half = on_plane_with_fewer_cells(plan, 2, interrupted, threads),
+                         quarter = on_plane_with_fewer_cells(plan, 4, interrupted, threads);
   if (half.empty() || quarter.empty()) return;
   for (std::size_t row = 0; row < summary.size(); ++row) {
     if (summary[row].about.error == ErrorRule::unknown) continue;

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "run/summary.hpp"
-#include "slipfront/scenario/problem.hpp"
+#include "run/run.hpp"
 
 namespace slipfront::run {
 
@@ -28,16 +27,16 @@ namespace slipfront::run {
 /// An error is NaN for rows without an error of this kind. It is NaN for a front that an observer sees at an end of the
 /// domain. It is NaN, with a warning, for a value that each doubling of the cells more than doubles. It is also NaN if
 /// the run, or the run with half the cells, has no value, or if `interrupted` returned true.
-std::vector<std::string> add_pulse_errors(const pulse::Run& run, std::vector<Row>& summary,
-                                          const scenario::Scenario& scenario, const std::function<bool()>& interrupted);
+std::vector<std::string> add_pulse_errors(const pulse::Run& run, std::vector<Row>& summary, const Plan& plan,
+                                          const std::function<bool()>& interrupted);
 
 /// Sets the errors of the summary of a finished run by runs with half and a quarter of the cells, or of the scale of a
 /// direct run, which take a quarter of its time. An error is 1.5 times the larger of two changes: that of the last
 /// doubling, and half of that at the doubling before. There is none if a run with fewer cells fails, or if
 /// `interrupted` returned true, and for a direct run with fewer than 20 lines, whose convergence is not regular. The
 /// peak slip velocity has no error.
-void add_plane_errors(std::vector<Row>& summary, const scenario::Scenario& scenario,
-                      const std::function<bool()>& interrupted, scenario::Lines lines, int threads);
+void add_plane_errors(std::vector<Row>& summary, const Plan& plan, const std::function<bool()>& interrupted,
+                      int threads);
 
 /// The number of cells for a relative tolerance, 1e-9 to 1. It applies to slip, slip velocity and stress at x = 0, and
 /// to the peak slip velocity. The function doubles the cells of the scenario until the tolerance is reached. If

@@ -170,9 +170,9 @@ scenario::Scenario scenario_of_fault(const FaultOnPlane& model, const std::strin
   scenario::Scenario s = scenario::read_scenario(text_of(model, file, *contact_ratio, unit), file, overrides, rows);
   const std::string unknown = in_pascals(unit);
   const std::size_t at = s.text.find(unknown);
-  if (at == std::string::npos) return s;                  // `overrides` give it
-  scenario::plane_solver(s, scenario::Lines::direct, 1);  // refuses what needs too much memory
-  const plane::Schedule grid = scenario::plane_schedule(s, scenario::Lines::direct);
+  if (at == std::string::npos) return s;                             // `overrides` give it
+  scenario::plane_solver(s, scenario::SolverKind::plane_direct, 1);  // refuses what needs too much memory
+  const plane::Schedule grid = scenario::plane_schedule(s, scenario::SolverKind::plane_direct);
   const double unbalanced = plane::largest_unbalanced_force(
       s.plane->problem, {.scale = scenario::scale_of_lines(s), .spacing = *s.chain.spacing}, grid.nx, grid.ny);
   const double strength = rounded(stronger * unbalanced) * unit;

@@ -97,9 +97,9 @@ Result begin_pulse(const Plan& plan, const Options& options) {
   auto owned = begun<pulse::Run>(options, &record::Checkpoint::snapshots, plan.pulse, plan.on_line);
   const pulse::Run& run = *owned;
   Result result = on_line(std::move(owned), plan, "pulse");
-  result.numbers = [&run](const Spent& spent) { return rows_of({run, spent.wall}); };
+  result.numbers = [&run](const output::Spent& spent) { return rows_of({run, spent.wall}); };
   result.add_errors = [&run, &plan](std::vector<Row>& summary, const std::function<bool()>& interrupted) {
-    return add_pulse_errors(run, summary, plan.scenario, interrupted);
+    return add_pulse_errors(run, summary, plan, interrupted);
   };
   return result;
 }
@@ -115,33 +115,26 @@ Result begin_chain(const Plan& plan, const Options& options) {
     metadata.events = run.events();
     metadata.fronts = run.fronts();
   };
-  result.numbers = [&run](const Spent& spent) {
+  result.numbers = [&run](const output::Spent& spent) {
     const chain::Averages averages = run.averages();
-    return rows_of({.run = run,
-                    .balance = run.balance(),
-                    .averages = averages,
-                    .stepping = spent.stepping,
-                    .wall = spent.wall,
-                    .steps = spent.steps,
-                    .ranks = spent.ranks,
-                    .threads = spent.threads});
+    return rows_of({run, run.balance(), averages, spent});
   };
   return result;
 }
 
 Result begin_plane(const Plan& plan, const Options& options) {
   const scenario::Scenario& s = plan.scenario;
-  const scenario::Lines lines = plan.lines();
   auto owned = begun<plane::Run>(options, &record::Checkpoint::fields,
-                                 scenario::plane_solver(s, lines, options.threads, options.ranks), plan.on_plane);
+                                 scenario::plane_solver(s, plan.solver, options.threads, options.ranks), plan.on_plane);
   const plane::Run& run = *owned;
-  Result result{.run = std::move(owned),
-                .metadata = metadata_of(s, lines == scenario::Lines::direct ? "plane --direct" : "plane", {})};
+  Result result{
+      .run = std::move(owned),
+      .metadata = metadata_of(s, plan.solver == scenario::SolverKind::plane ? "plane" : "plane --direct", {})};
   result.arrays = [&run](const record::RunMetadata&) { return record::arrays_of(run); };
   result.write = [&run](const std::string& path, const record::RunMetadata& metadata, const std::string& state) {
     record::write_run(path, metadata, record::arrays_of(run), state, run.finished());
   };
-  result.numbers = [&run, &plan](const Spent& spent) {
+  result.numbers = [&run, &plan](const output::Spent& spent) {
     std::vector<Row> rows = rows_of(run, plan.scenario.plane->probes, spent.wall);
     if (plan.model)
       for (Row& row : compare_with_model(*plan.model, plan.scenario, run)) rows.push_back(std::move(row));
@@ -150,7 +143,7 @@ Result begin_plane(const Plan& plan, const Options& options) {
   if (!options.ranks && !plan.model)  // processes that share a run do not share coarser ones
     result.add_errors = [&plan, threads = options.threads](std::vector<Row>& summary,
                                                            const std::function<bool()>& interrupted) {
-      add_plane_errors(summary, plan.scenario, interrupted, plan.lines(), threads);
+      add_plane_errors(summary, plan, interrupted, threads);
       return std::vector<std::string>{};
     };
   return result;
@@ -165,7 +158,7 @@ Plan plan_of(scenario::SolverKind solver, scenario::Scenario s, double share_of_
                          [&] { scenario::with_keys(solver, plan.scenario.file, [&] { plan_line(plan); }); });
     return plan;
   }
-  plan.on_plane = scenario::plane_schedule(plan.scenario, plan.lines());
+  plan.on_plane = scenario::plane_schedule(plan.scenario, solver);
   plan.need.disk = scenario::plane_file_size(plan.on_plane);
   return plan;
 }

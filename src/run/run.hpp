@@ -63,9 +63,6 @@ struct Plan {
   /// The finite-fault model from which the scenario was made, and with which the results are compared; null: none.
   std::shared_ptr<const FaultOnPlane> model = {};
 
-  scenario::Lines lines() const {
-    return solver == scenario::SolverKind::plane_direct ? scenario::Lines::direct : scenario::Lines::averaged;
-  }
   bool is_on_plane() const { return solver != scenario::SolverKind::pulse && solver != scenario::SolverKind::chain; }
   const std::vector<double>& times() const { return is_on_plane() ? on_plane.times : on_line.times; }
 };
@@ -87,13 +84,6 @@ record::Checkpoint checkpoint_of(const std::string& path, const Plan& plan);
 /// FileError.
 record::Output output_of(const std::string& output, const std::string& resume, bool of_finished);
 
-/// The time and the machine that a run took.
-struct Spent {
-  double stepping, wall;  ///< seconds of the run only, and of everything
-  long steps;             ///< steps in these seconds
-  int ranks, threads;
-};
-
 /// A run by any solver.
 struct Result {
   std::unique_ptr<output::Run> run;
@@ -109,7 +99,7 @@ struct Result {
   std::function<void(const std::string& path, const record::RunMetadata& metadata, const std::string& state)> write =
       {};
   /// (all ranks) Returns the summary.
-  std::function<std::vector<Row>(const Spent& spent)> numbers = {};
+  std::function<std::vector<Row>(const output::Spent& spent)> numbers = {};
   /// Sets the errors of the summary, by coarser runs (run/errors.hpp). Returns warnings. Null: they are set, or there
   /// are none.
   std::function<std::vector<std::string>(std::vector<Row>& summary, const std::function<bool()>& interrupted)>

@@ -47,13 +47,12 @@ double scale_of_lines(const Scenario& s) {
   return largest > 0 ? std::fmax(1, std::ceil(enough * 2 * std::numbers::pi / largest)) : 1;
 }
 
-std::unique_ptr<plane::Solver> plane_solver(const Scenario& s, Lines lines, int threads, const Ranks* ranks) {
+std::unique_ptr<plane::Solver> plane_solver(const Scenario& s, SolverKind solver, int threads, const Ranks* ranks) {
   require_plane(s);
-  const SolverKind kind = lines == Lines::averaged ? SolverKind::plane : SolverKind::plane_direct;
   const char* const slip_key = s.initial.file.empty() ? "initial.formula" : "initial.file";
   const auto make = [&]() -> std::unique_ptr<plane::Solver> {
-    if (lines == Lines::averaged && s.plane->on_grid) return plane::grid_solver(s.plane->problem, s.plane->cells);
-    if (lines == Lines::averaged)
+    if (solver == SolverKind::plane && s.plane->on_grid) return plane::grid_solver(s.plane->problem, s.plane->cells);
+    if (solver == SolverKind::plane)
       return plane::loops_solver(s.plane->problem, {.loops = s.plane->loops, .angles = s.plane->angles});
     const plane::DirectOptions options{.scale = scale_of_lines(s),
                                        .spacing = s.chain.spacing.value_or(plane::DirectOptions{}.spacing),
@@ -69,20 +68,20 @@ std::unique_ptr<plane::Solver> plane_solver(const Scenario& s, Lines lines, int 
                         .allowed = "a smaller scale"});
     return plane::direct_solver(s.plane->problem, options);
   };
-  return with_keys(kind, s.file, make, slip_key);
+  return with_keys(solver, s.file, make, slip_key);
 }
 
 namespace {
 
 /// When a cell has ruptured, as a number and in the words that files have.
-void set_rupture_rule(const Scenario& s, Lines lines, plane::Schedule& schedule) {
+void set_rupture_rule(const Scenario& s, SolverKind solver, plane::Schedule& schedule) {
   const plane::Problem& p = s.plane->problem;
   // A state that is held settles a little at t = 0. There, and without initial slip, half a line must pass.
   const double seen = p.nucleation ? 1e-2 : 1e-3, largest = largest_slip(p, schedule.nx, schedule.ny);
   schedule.rupture_slip = seen * largest;
   const std::string when = "time at which the slip, of either sign, first exceeds ";
   schedule.rupture_rule = when + digits(seen) + " of the largest initial mean slip";
-  if (lines != Lines::direct || !(p.nucleation || !(largest > 0))) return;
+  if (solver != SolverKind::plane_direct || !(p.nucleation || !(largest > 0))) return;
   const double half_a_line = std::numbers::pi / scale_of_lines(s);
   schedule.rupture_rule =
       largest > 0 ? schedule.rupture_rule + " and that of half a line" : when + "that of half a line";
@@ -91,7 +90,7 @@ void set_rupture_rule(const Scenario& s, Lines lines, plane::Schedule& schedule)
 
 }  // namespace
 
-plane::Schedule plane_schedule(const Scenario& s, Lines lines) {
+plane::Schedule plane_schedule(const Scenario& s, SolverKind solver) {
   require_plane(s);
   constexpr double most_rows = 1000;
   const plane::Problem& p = s.plane->problem;
@@ -108,7 +107,7 @@ plane::Schedule plane_schedule(const Scenario& s, Lines lines) {
                                  digits(usable_memory() / 1e9, 3) + " GB",
                       .allowed = "fewer cells or fewer output times"});
   schedule.interval = std::fmax(cell, s.end / most_rows);
-  set_rupture_rule(s, lines, schedule);
+  set_rupture_rule(s, solver, schedule);
   schedule.wave_speed_ratio = s.plane->wave_speed_ratio;
   schedule.lines = s.plane->lines;
   return schedule;

@@ -12,8 +12,6 @@
 
 namespace slipfront::scenario {
 
-enum class SolverKind { pulse, chain, plane, plane_direct };
-
 /// The error with the key and the file of the scenario. An error in anything else does not change. `slip_key` is the
 /// key of [initial] that gives the slip on a plane.
 InputError in_keys(SolverKind solver, const std::string& file, const InputError& error,

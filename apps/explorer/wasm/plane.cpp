@@ -102,7 +102,7 @@ SLIPFRONT_EXPORT const char* plane_begin(const char* toml, const char* changes, 
     scenario::require_plane(s);
     check_size(s, direct != 0);
     s.plane->cells = cells;
-    const scenario::Lines which = direct != 0 ? scenario::Lines::direct : scenario::Lines::averaged;
+    const scenario::SolverKind which = direct != 0 ? scenario::SolverKind::plane_direct : scenario::SolverKind::plane;
     plane::Schedule schedule = scenario::plane_schedule(s, which);
     schedule.lines = true;
     schedule.times.clear();

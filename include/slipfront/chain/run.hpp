@@ -133,11 +133,9 @@ class Run : public output::Run {
 /// A run that has reached its end, and how it was run.
 struct Report {
   const Run& run;
-  Balance balance;        ///< result of run.balance(), in which all ranks take part
-  Averages averages;      ///< result of run.averages(), like `balance`
-  double stepping, wall;  ///< seconds of the run only, and of everything
-  long steps;             ///< steps in these seconds
-  int ranks, threads;
+  Balance balance;    ///< result of run.balance(), in which all ranks take part
+  Averages averages;  ///< result of run.averages(), like `balance`
+  output::Spent spent;
 };
 /// The numbers of a run that its snapshots do not have.
 std::span<const output::Quantity<Report>> quantities();

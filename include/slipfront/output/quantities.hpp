@@ -44,6 +44,13 @@ struct Quantity {
   std::string_view (*unit)(const Run&) = nullptr;  ///< its unit, if that depends on the run
 };
 
+/// The time and the machine that a run took.
+struct Spent {
+  double stepping = 0, wall = 0;  ///< seconds of the run only, and of everything
+  long steps = 0;                 ///< steps in these seconds
+  int ranks = 1, threads = 1;
+};
+
 /// Descriptions that several solvers share.
 inline constexpr Description time_axis = {"time", "time", "b / (c A)", "Eq. 3"};
 inline constexpr Description end_time = {"time", "end of the run", "b / (c A)", "Eq. 3"};

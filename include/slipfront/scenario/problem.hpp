@@ -42,23 +42,19 @@ void require_plane(const Scenario& scenario);
 /// \throws InputError if the scenario has the table [plane].
 void require_line(const Scenario& scenario);
 
-/// Whether a run follows the averages or every dislocation line.
-enum class Lines { averaged, direct };
-
 /// The scale of a direct run. Unless the scenario has chain.scale, the largest initial slip has at least 20 lines, and
 /// the scale is a whole number. Without initial slip it is 1.
 double scale_of_lines(const Scenario& scenario);
 
-/// The solver of a scenario. \throws InputError for what it cannot solve, and for a direct solver that needs more
-/// memory than this process may have.
-/// `ranks` are the processes that share a direct solver (plane::DirectOptions).
-std::unique_ptr<plane::Solver> plane_solver(const Scenario& scenario, Lines lines, int threads,
+/// The solver of a scenario on a plane. \throws InputError for what it cannot solve, and for a direct solver that needs
+/// more memory than this process may have. `ranks` are the processes that share a direct solver (plane::DirectOptions).
+std::unique_ptr<plane::Solver> plane_solver(const Scenario& scenario, SolverKind solver, int threads,
                                             const Ranks* ranks = nullptr);
 
-/// The times and the grid of the results, and the slip at which a cell has ruptured, which depends on `lines`. A row of
-/// the series follows each time in which a wave crosses a cell, with at most 1000 rows. \throws InputError if the
+/// The times and the grid of the results, and the slip at which a cell has ruptured, which depends on the solver. A row
+/// of the series follows each time in which a wave crosses a cell, with at most 1000 rows. \throws InputError if the
 /// results need more memory than this process may have.
-plane::Schedule plane_schedule(const Scenario& scenario, Lines lines);
+plane::Schedule plane_schedule(const Scenario& scenario, SolverKind solver);
 
 /// Approximate number of bytes of the file of a run.
 double plane_file_size(const plane::Schedule& schedule);

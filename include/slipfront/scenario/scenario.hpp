@@ -29,6 +29,9 @@ inline constexpr double largest_stress = 1e6;
 /// The largest |x| that is accepted. Differences of positions then neither overflow nor lose the cells between them.
 inline constexpr double farthest = 1e9;
 
+/// The solvers of a scenario, on a line and on a plane. The chain and `plane_direct` follow every dislocation.
+enum class SolverKind { pulse, chain, plane, plane_direct };
+
 enum class ProfileKind { step, tanh, formula, table, radial, grid };
 
 /// [initial]: stress along x at t = 0. The interface is at rest.
