@@ -286,73 +286,23 @@ void print_summary(const scenario::Scenario& scenario, std::vector<run::Row> sum
   if (!output.empty() && !a.common.quiet) put(fitted("written to " + output));
 }
 
-/// Checks that the output of a run can be written, of about `bytes` bytes. `of_finished`: the run continues that of a
-/// finished file. \throws FileError.
-void require_output(const ScenarioArguments& arguments, bool of_finished, double bytes) {
-  record::require_disk_space(run::output_of(arguments.output, arguments.resume, of_finished).finished(), bytes);
-}
-
-/// The progress line and the output file of a run. While this object exists, Ctrl-C interrupts the
-/// run.
-class LongRun {
- public:
-  /// `of_finished`: the run continues that of a finished file. `ranks` are the processes that share the run; null if
-  /// there is only this one.
-  LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario, bool of_finished, const Ranks* ranks);
-  /// Options of the run: its output, the checkpoint to resume from, if any, and the time `begun` when the command
-  /// began.
-  run::Options options(std::optional<record::Checkpoint> checkpoint, Clock::time_point begun);
-  /// Ends the run. If it was interrupted, prints at which time. Returns the exit code.
-  int end(bool finished);
-
- private:
-  const ScenarioArguments& a_;
-  const scenario::Scenario& s_;
-  const Ranks* ranks_;
-  bool first_;
-  record::Output output_;
-  std::optional<WatchInterrupts> watch_;
-  std::optional<Progress> progress_;
-  double time_ = 0;
-};
-
-LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario, bool of_finished,
-                 const Ranks* ranks)
-    : a_(arguments), s_(scenario), ranks_(ranks), first_(the_ranks->rank() == 0) {
-  const auto open = [&] { output_ = run::output_of(a_.output, a_.resume, of_finished); };
-  ranks_ ? ranks_->together(open) : open();
-  if (output_.wanted())
-    interrupted_means("; the last checkpoint is saved: continue with " + output_.how_to_resume(), output_.unfinished());
-  watch_.emplace(!first_);
-}
-
-run::Options LongRun::options(std::optional<record::Checkpoint> checkpoint, Clock::time_point begun) {
-  return {.output = output_,
-          .checkpoint = std::move(checkpoint),
-          .threads = a_.common.threads,
-          .ranks = ranks_,
-          .after_step =
-              [this](double time, long steps) {
-                if (!progress_) {
-                  progress_.emplace(s_.end, first_ && !a_.common.quiet, std::string(), progress_words(s_));
-                  progress_->from(time, steps);
-                }
-                time_ = time;
-                progress_->at(time, steps);
-                return interrupted_by_user();
-              },
-          .begun = begun};
-}
-
-int LongRun::end(bool finished) {
-  progress_.reset();
-  watch_.reset();
-  if (finished) return exit_done;
-  if (first_)
-    complain(output_.wanted() ? fmt::format("interrupted at t = {}; continue with {}",
-                                            s_.in_results(time_, "b / (c A)"), output_.how_to_resume())
-                              : "interrupted; there is no checkpoint, because -o was not given");
-  return exit_interrupted;
+/// Carries out a plan and shows its progress. Meanwhile Ctrl-C interrupts the run.
+run::Result with_progress(const ScenarioArguments& a, const run::Plan& plan, run::Options options) {
+  const bool first = the_ranks->rank() == 0;
+  const record::Output& output = options.output;
+  if (output.wanted())
+    interrupted_means("; the last checkpoint is saved: continue with " + output.how_to_resume(), output.unfinished());
+  const WatchInterrupts watch(!first);
+  std::optional<Progress> progress;
+  options.after_step = [&](double time, long steps) {
+    if (!progress) {
+      progress.emplace(plan.scenario.end, first && !a.common.quiet, std::string(), progress_words(plan.scenario));
+      progress->from(time, steps);
+    }
+    progress->at(time, steps);
+    return interrupted_by_user();
+  };
+  return run::carry_out(plan, options);
 }
 
 /// Whether processes can share a run of this solver.
@@ -382,29 +332,35 @@ int plan_and_run(const ScenarioArguments& a, Clock::time_point begun, const std:
   the_ranks->require_same("SCENARIO", s.text);
   const Ranks* const ranks = is_shared(plan.solver) && the_ranks->size() > 1 ? the_ranks : nullptr;
   if (!ranks && the_ranks->rank() > 0) return exit_done;
-  std::optional<record::Checkpoint> saved;
+  run::Options options{.threads = a.common.threads, .ranks = ranks, .begun = begun};
   const auto prepare = [&] {
-    if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, plan);
-    if (a.check) require_output(a, saved && saved->finished, plan.need.disk);
+    if (!a.resume.empty()) options.checkpoint = run::checkpoint_of(a.resume, plan);
+    options.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
+    if (a.check) record::require_disk_space(options.output.finished(), plan.need.disk);
   };
   ranks ? ranks->together(prepare) : prepare();
-  if (ranks) ranks->require_same("--resume", saved ? saved->solver_state : "");
+  if (ranks) ranks->require_same("--resume", options.checkpoint ? options.checkpoint->solver_state : "");
+  const bool first = the_ranks->rank() == 0;
   if (a.check) {
-    const run::Result start =
-        run::begin(plan, {.checkpoint = std::move(saved), .threads = a.common.threads, .ranks = ranks});
-    if (the_ranks->rank() == 0)
+    const run::Result start = run::begin(plan, options);
+    if (first)
       put(fitted(fmt::format("{}: OK. This scenario would {}.", s.title.empty() ? s.file : s.title,
                              in_words(plan, *start.run))));
     return exit_done;
   }
-  LongRun long_run(a, s, saved && saved->finished, ranks);
-  run::Result result = run::carry_out(plan, long_run.options(std::move(saved), begun));
-  if (const int code = long_run.end(result.finished()); code != exit_done) return code;
+  run::Result result = with_progress(a, plan, options);
+  if (!result.finished()) {
+    const std::string how = options.output.wanted() ? fmt::format("interrupted at t = {}; continue with {}",
+                                                                  s.in_results(result.run->time(), "b / (c A)"),
+                                                                  options.output.how_to_resume())
+                                                    : "interrupted; there is no checkpoint, because -o was not given";
+    if (first) complain(how);
+    return exit_interrupted;
+  }
   std::vector<std::string> warnings = result.metadata.warnings;
   if (result.add_errors)
     for (std::string& warning : result.add_errors(result.summary, {})) warnings.push_back(std::move(warning));
   const bool has_events = plan.solver == scenario::SolverKind::chain && s.loading.acts();
-  if (the_ranks->rank() == 0)
-    print_summary(s, result.summary, warnings, a, has_events ? &result.metadata.events : nullptr);
+  if (first) print_summary(s, result.summary, warnings, a, has_events ? &result.metadata.events : nullptr);
   return exit_done;
 }
