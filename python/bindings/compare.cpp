@@ -79,7 +79,7 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   record::Levels series;
   for (const Level& level : levels) series.push_back(&level.snapshots);
   py::dict result = dataset_of(metadata, record::comparison_format, reached,
-                               record::arrays_of(metadata, comparison.schedule.times, series, true));
+                               record::arrays_of(metadata, comparison.schedule.times, series));
   result["levels"] = level_rows(levels);
   result["level_numbers"] = numbers_of_levels(levels);
   result["scale_about"] = described(output::scale_factor);

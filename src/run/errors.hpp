@@ -27,8 +27,8 @@ namespace slipfront::run {
 /// An error is NaN for rows without an error of this kind. It is NaN for a front that an observer sees at an end of the
 /// domain. It is NaN, with a warning, for a value that each doubling of the cells more than doubles. It is also NaN if
 /// the run, or the run with half the cells, has no value, or if `interrupted` returned true.
-std::vector<std::string> add_pulse_errors(const pulse::Run& run, std::vector<Row>& summary,
-                                          const scenario::Scenario& scenario, const std::function<bool()>& interrupted);
+std::vector<std::string> add_pulse_errors(const pulse::Run& run, std::vector<Row>& summary, const Plan& plan,
+                                          const std::function<bool()>& interrupted);
 
 /// Sets the errors of the summary of a finished run by runs with half and a quarter of the cells, or of the scale of a
 /// direct run, which take a quarter of its time. An error is 1.5 times the larger of two changes: that of the last

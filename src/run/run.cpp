@@ -81,16 +81,14 @@ std::unique_ptr<Run> begun(const Options& options, Snapshots record::Checkpoint:
 template <class Run>
 Result on_line(std::unique_ptr<Run> owned, const Plan& plan, const char* command) {
   const Run& run = *owned;
-  return {.run = std::move(owned),
-          .metadata = metadata_of(plan.scenario, command, plan.on_line.x_edges),
-          .arrays =
-              [&run](const record::RunMetadata& metadata) {
-                return record::arrays_of(metadata, record::times_of(run.snapshots()), {&run.snapshots()}, false);
-              },
-          .write =
-              [&run](const std::string& path, const record::RunMetadata& metadata, const std::string& state) {
-                record::write_pulse(path, metadata, run.snapshots(), state, run.finished());
-              }};
+  return {
+      .run = std::move(owned),
+      .metadata = metadata_of(plan.scenario, command, plan.on_line.x_edges),
+      .arrays = [&run](const record::RunMetadata& metadata) { return record::arrays_of(metadata, run.snapshots()); },
+      .write =
+          [&run](const std::string& path, const record::RunMetadata& metadata, const std::string& state) {
+            record::write_pulse(path, metadata, run.snapshots(), state, run.finished());
+          }};
 }
 
 Result begin_pulse(const Plan& plan, const Options& options) {
@@ -159,7 +157,7 @@ Plan plan_of(scenario::SolverKind solver, scenario::Scenario s, double share_of_
     return plan;
   }
   plan.on_plane = scenario::plane_schedule(plan.scenario, solver);
-  plan.need.disk = scenario::plane_file_size(plan.on_plane);
+  plan.need.disk = plane::memory_of_results(plan.on_plane) + (1 << 16);
   return plan;
 }
 

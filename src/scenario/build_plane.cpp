@@ -113,6 +113,4 @@ plane::Schedule plane_schedule(const Scenario& s, SolverKind solver) {
   return schedule;
 }
 
-double plane_file_size(const plane::Schedule& schedule) { return plane::memory_of_results(schedule) + (1 << 16); }
-
 }  // namespace slipfront::scenario

@@ -81,8 +81,7 @@ class Run : public output::Run {
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
-  /// Continues to the end, or until `interrupted` returns true. The run calls `interrupted` about every tenth of a
-  /// second. Returns whether the run has reached its end.
+  /// It calls `interrupted` about every tenth of a second.
   bool go(const std::function<bool()>& interrupted = {}) override;
 
   const Chain& chain() const { return *chain_; }

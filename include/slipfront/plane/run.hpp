@@ -58,9 +58,8 @@ class Run : public output::Run {
   /// those of one run to the later end. \throws InputError if the run was saved for another problem or schedule.
   Run(std::unique_ptr<Solver> solver, Schedule schedule, std::string_view saved, std::vector<Field> snapshots);
 
-  /// Advances to the end, or until `interrupted` returns true; it is called after every step. Returns whether the end
-  /// was reached. \throws NumericsError if the solver fails, if the run needs far more steps than waves do, and at the
-  /// end if nine tenths of the energy are missing.
+  /// It calls `interrupted` after every step. \throws NumericsError if the solver fails, if the run needs far more
+  /// steps than waves do, and at the end if nine tenths of the energy are missing.
   bool go(const std::function<bool()>& interrupted = {}) override;
 
   const Solver& solver() const { return *solver_; }

@@ -32,8 +32,7 @@ class Run : public output::Run {
   Run(Run&&) noexcept;
   Run& operator=(Run&&) noexcept;
 
-  /// Advances to the end, or until `interrupted` returns true; it is called after every step. The run can be saved at
-  /// that point. Returns whether the end was reached. \throws NumericsError if the solver fails, if the step budget is
+  /// It calls `interrupted` after every step. \throws NumericsError if the solver fails, if the step budget is
   /// exhausted, or if results violate an invariant by more than 1 %.
   bool go(const std::function<bool()>& interrupted = {}) override;
 

@@ -56,9 +56,6 @@ std::unique_ptr<plane::Solver> plane_solver(const Scenario& scenario, SolverKind
 /// results need more memory than this process may have.
 plane::Schedule plane_schedule(const Scenario& scenario, SolverKind solver);
 
-/// Approximate number of bytes of the file of a run.
-double plane_file_size(const plane::Schedule& schedule);
-
 /// Absent numbers do not apply to the scenario. Lengths are in b / A, stiffness in the unit of the model.
 struct Numbers {
   /// The position with the largest critical stiffness, if friction varies. The other numbers of friction are those

@@ -121,7 +121,9 @@ Array coordinate(const Description& about, std::vector<double> values, std::stri
   return array;
 }
 
-std::vector<double> times_of(const std::vector<Snapshot>& snapshots) { return values_of(snapshots, &Snapshot::time)(); }
+std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+  return arrays_of(metadata, values_of(snapshots, &Snapshot::time)(), {&snapshots}, false);
+}
 
 std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<double>& times, const Levels& levels,
                              bool by_level) {

@@ -35,12 +35,11 @@ Array coordinate(const Description& about, std::vector<double> values, std::stri
 /// One series of snapshots for each level of theory.
 using Levels = std::vector<const std::vector<output::Snapshot>*>;
 
-std::vector<double> times_of(const std::vector<output::Snapshot>& snapshots);
-
 /// The variables of a run along a line, or of a comparison `by_level`, where "level" is the first dimension. They refer
 /// to the arguments. \throws InputError if the metadata has an unknown variable.
+std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<output::Snapshot>& snapshots);
 std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<double>& times, const Levels& levels,
-                             bool by_level);
+                             bool by_level = true);
 
 /// The variables of a run on a plane, which must outlive them.
 std::vector<Array> arrays_of(const plane::Run& run);

@@ -43,7 +43,7 @@ void fill(Writer& file, const RunMetadata& metadata, const std::vector<double>& 
     snapshots.push_back(&level.snapshots);
     scales.push_back(level.scale.value_or(none));
   }
-  std::vector<Array> arrays = arrays_of(metadata, times, snapshots, true);
+  std::vector<Array> arrays = arrays_of(metadata, times, snapshots);
   for (Array& array : arrays)
     if (array.dimensions.front().name == "level") array.attributes.emplace_back("coordinates", "name scale");
   arrays.push_back({output::scale_factor, {{"level", levels.size()}}, [scales] { return scales; }, {}});

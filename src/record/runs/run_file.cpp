@@ -88,7 +88,7 @@ void write_pulse(const std::string& path, const RunMetadata& metadata, const std
                  const std::string& solver_state, bool finished) {
   const Fields fields = chosen_fields(metadata.variables);
   check(metadata, snapshots, fields);
-  write_run(path, metadata, arrays_of(metadata, times_of(snapshots), {&snapshots}, false), solver_state, finished,
+  write_run(path, metadata, arrays_of(metadata, snapshots), solver_state, finished,
             layout::checksum(metadata.scenario_text, solver_state, finished, snapshots, fields));
 }
 
