@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "foundation/text/digits.hpp"
+#include "foundation/text/nearest.hpp"
 #include "scenario/document.hpp"
 #include "scenario/readers.hpp"
 #include "scenario/section.hpp"

@@ -65,17 +65,17 @@ layout::Corners find_corners() {
   std::array<CornersAt, layout::y_nodes> found;
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < layout::y_nodes; ++i) found[i] = corners_at(stress_node(i));
-  layout::Corners corners{};
+  layout::Corners result{};
   for (std::size_t i = 0; i < layout::corner_terms; ++i) {
     const auto term = [&](double CornersAt::*u) {
       return coefficient(i, layout::y_nodes, [&](std::size_t n) { return found[n].*u; });
     };
-    corners[0][static_cast<std::size_t>(Measure::origin)][i] = term(&CornersAt::origin);
-    corners[0][static_cast<std::size_t>(Measure::peak)][i] = term(&CornersAt::peak);
+    result[0][static_cast<std::size_t>(Measure::origin)][i] = term(&CornersAt::origin);
+    result[0][static_cast<std::size_t>(Measure::peak)][i] = term(&CornersAt::peak);
     // The slope of W(0) changes there, and with it the curvature of its mean in time.
-    corners[0][static_cast<std::size_t>(Measure::time_mean)][i] = term(&CornersAt::origin);
+    result[0][static_cast<std::size_t>(Measure::time_mean)][i] = term(&CornersAt::origin);
   }
-  return corners;
+  return result;
 }
 
 }  // namespace slipfront::friction_ratio

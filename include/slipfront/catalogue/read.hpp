@@ -20,8 +20,8 @@ using Sink = std::function<void(Entry&&)>;
 
 /// How a table is to be read.
 struct TableOptions {
-  std::string map;       ///< TOML text that maps titles to quantities (docs/events.md); by default none
-  std::string map_file;  ///< its file, for error messages
+  std::string map = {};       ///< TOML text that maps titles to quantities (docs/events.md); by default none
+  std::string map_file = {};  ///< its file, for error messages
   /// Whether the rows are fronts in the laboratory, with shear and normal stress, instead of events.
   bool of_fronts = false;
   std::vector<std::string> required = {};  ///< quantities that each row must have
@@ -32,9 +32,9 @@ void check_column_map(const TableOptions& options);
 
 /// Notes about a table as a whole.
 struct TableNotes {
-  std::vector<std::string> ignored;             ///< titles of the columns that give no observation
-  std::vector<std::string> ignored_quantities;  ///< those of them that look like quantities
-  std::vector<std::string> notes;               ///< other notes, with file and line
+  std::vector<std::string> ignored = {};             ///< titles of the columns that give no observation
+  std::vector<std::string> ignored_quantities = {};  ///< those of them that look like quantities
+  std::vector<std::string> notes = {};               ///< other notes, with file and line
 };
 
 /// A CSV catalogue, one event a row, as published: units in the header (`rupture_velocity_km_s`, `VR [km/s]`), below it
@@ -44,21 +44,21 @@ TableNotes read_csv(std::string_view text, const std::string& file, const Sink& 
 
 /// The meaning that a reader gives to one column of a table.
 struct ColumnDescription {
-  std::string title;
-  std::string meaning;          ///< as in a map, such as "error of slip" or "name"; empty if the column is not used
-  std::string unit;             ///< unit of the cells; empty if they have none, or each has its own
+  std::string title = {};
+  std::string meaning = {};     ///< as in a map, such as "error of slip" or "name"; empty if the column is not used
+  std::string unit = {};        ///< unit of the cells; empty if they have none, or each has its own
   double deviations = 0;        ///< an error is this many standard deviations
-  std::string reason;           ///< why the column is not used, or cannot be read
+  std::string reason = {};      ///< why the column is not used, or cannot be read
   bool looks_physical = false;  ///< a column that is not understood, and looks like a quantity
 };
 
 struct TableDescription {
-  std::string file;
+  std::string file = {};
   std::size_t header_line = 0;  ///< 0 if no line has titles
   char separator = ',';         ///< between the cells of a row; ' ' for any number of blanks
   bool decimal_comma = false;
-  std::vector<ColumnDescription> columns;
-  std::string map;  ///< TOML text for TableOptions, to edit
+  std::vector<ColumnDescription> columns = {};
+  std::string map = {};  ///< TOML text for TableOptions, to edit
 };
 
 /// Describes a CSV table by its header. \throws InputError when the text is none, or the map is wrong.

@@ -9,7 +9,7 @@
 namespace slipfront::pulse {
 
 /// Part of the change of stress at which the front starts.
-constexpr double felt = 0.01;
+constexpr double noticed = 0.01;
 
 TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
   const View v = start.view();
@@ -41,13 +41,13 @@ TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
     while (i < n && !departs(v.centres[from_stressed(i)], share)) ++i;
     return i;
   };
-  const std::size_t i = first(felt);
+  const std::size_t i = first(noticed);
   position_ = i < n ? v.centres[from_stressed(i)] : v.faces[stressed_left_ ? n : 0];
   double still = i == n ? position_ : i == 0 ? end : v.centres[from_stressed(i - 1)];
   while (true) {
     const double middle = still + (position_ - still) / 2;
     if (middle == still || middle == position_) break;
-    (departs(middle, felt) ? position_ : still) = middle;
+    (departs(middle, noticed) ? position_ : still) = middle;
   }
   steady_ = first(1e-12) == i && !p.forcing;
   speed_ = steady_ ? speed_into(v.states[from_stressed(0)]) : speed_at(start);
