@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "chain/explicit/explicit_chain.hpp"
-#include "chain/explicit/levels/levels.hpp"
+#include "chain/explicit/levels/contact_force.hpp"
 
 namespace {
 

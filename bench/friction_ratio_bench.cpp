@@ -2,7 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "slipfront/friction_ratio/front.hpp"
+#include "slipfront/friction_ratio/table.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "modulation/solve_states.hpp"
 #include "pulse/space/kernels.hpp"
 #include "pulse/space/semidiscrete.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 
 // Measures the cell stage of a `pulse` run and its two costliest loops. It compares them with the limit of the
 // arithmetic units, which is the rate of a loop of independent fused multiply-adds with the same vector width in the

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pulse/solver.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/scenario/problem.hpp"
 #include "slipfront/scenario/scenario.hpp"
 #include "slipfront/train/train.hpp"

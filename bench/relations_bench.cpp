@@ -3,8 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "slipfront/elliptic/complete.hpp"
-#include "slipfront/elliptic/jacobi.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/rupture/trains.hpp"

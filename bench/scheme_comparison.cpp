@@ -15,9 +15,7 @@
 #include "pulse/solver.hpp"
 #include "pulse/space/semidiscrete.hpp"
 #include "rupture/inverse.hpp"
-#include "slipfront/modulation/characteristics.hpp"
-#include "slipfront/modulation/conservation.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace {

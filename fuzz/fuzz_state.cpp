@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "results/columns.hpp"
-#include "results/serialize.hpp"
+#include "results/evaluate.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "foundation/parallel.hpp"
-#include "foundation/text/printable.hpp"
+#include "foundation/text/characters.hpp"
 #include "slipfront/error.hpp"
 
 /// `make(i)` for i < count on several threads, in order: the result does not depend on how many. The exception of the

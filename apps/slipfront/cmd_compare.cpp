@@ -7,7 +7,7 @@
 #include "compare_print.hpp"
 #include "interrupts.hpp"
 #include "long_run.hpp"
-#include "record/files/unfinished.hpp"
+#include "record/files/whole_file.hpp"
 #include "run/run.hpp"
 #include "scenario/estimate.hpp"
 #include "slipfront/scenario/problem.hpp"

@@ -11,7 +11,7 @@
 #include "commands.hpp"
 #include "installed.hpp"
 #include "json.hpp"
-#include "record/files/text_file.hpp"
+#include "record/files/whole_file.hpp"
 #include "slipfront/error.hpp"
 
 /// The page that shows the theory. It is one file, which the browser reads from the disk.

@@ -6,7 +6,7 @@
 
 #include "batch.hpp"
 #include "commands.hpp"
-#include "foundation/text/nearest.hpp"
+#include "foundation/text/characters.hpp"
 #include "json.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/scenario/keys.hpp"

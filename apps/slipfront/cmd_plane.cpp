@@ -3,8 +3,8 @@
 
 #include "foundation/ranks.hpp"
 #include "long_run.hpp"
-#include "record/files/text_file.hpp"
-#include "run/fault_plane.hpp"
+#include "record/files/whole_file.hpp"
+#include "run/fault.hpp"
 #include "slipfront/plane/solvers.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "batch.hpp"
-#include "foundation/text/printable.hpp"
+#include "foundation/text/characters.hpp"
 #include "json.hpp"
 #include "long_run.hpp"
 #include "run/run.hpp"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <sstream>
 
-#include "foundation/text/nearest.hpp"
-#include "record/files/unfinished.hpp"
+#include "foundation/text/characters.hpp"
+#include "record/files/whole_file.hpp"
 #include "slipfront/error.hpp"
 
 Option& Option::required() { return option_->required(), *this; }

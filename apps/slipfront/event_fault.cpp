@@ -2,8 +2,7 @@
 
 #include "event_print.hpp"
 #include "event_run.hpp"
-#include "record/faults/fault_grid.hpp"
-#include "record/faults/srf_file.hpp"
+#include "record/faults/fault_files.hpp"
 #include "run/fault.hpp"
 #include "slipfront/error.hpp"
 

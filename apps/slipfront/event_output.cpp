@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "json.hpp"
-#include "results/quantities.hpp"
+#include "results/columns.hpp"
 
 namespace {
 

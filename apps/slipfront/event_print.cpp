@@ -8,8 +8,8 @@
 #include "batch.hpp"
 #include "event_output.hpp"
 #include "population_output.hpp"
-#include "record/events/event_csv.hpp"
-#include "results/quantities.hpp"
+#include "record/events/event_groups.hpp"
+#include "results/columns.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include "event_print.hpp"
 #include "interrupts.hpp"
 #include "progress.hpp"
-#include "record/events/event_csv.hpp"
-#include "record/files/text_file.hpp"
+#include "record/events/event_groups.hpp"
+#include "record/files/whole_file.hpp"
 #include "run/catalogue.hpp"
 
 using slipfront::results::EventResult;

@@ -9,9 +9,9 @@
 #include <csignal>
 
 #include "commands.hpp"
+#include "foundation/machine.hpp"
 #include "foundation/ranks.hpp"
-#include "foundation/sanitized.hpp"
-#include "record/files/text_file.hpp"
+#include "record/files/whole_file.hpp"
 
 namespace {
 

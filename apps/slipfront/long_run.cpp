@@ -11,8 +11,7 @@
 #include "batch.hpp"
 #include "interrupts.hpp"
 #include "json.hpp"
-#include "record/files/text_file.hpp"
-#include "record/files/unfinished.hpp"
+#include "record/files/whole_file.hpp"
 #include "run/tables.hpp"
 #include "terminal_table.hpp"
 

@@ -11,7 +11,7 @@
 #include "commands.hpp"
 #include "foundation/machine.hpp"
 #include "foundation/ranks.hpp"
-#include "foundation/text/printable.hpp"
+#include "foundation/text/characters.hpp"
 #include "interrupts.hpp"
 #include "slipfront/error.hpp"
 #include "terminal_table.hpp"

@@ -8,7 +8,7 @@
 
 #include "event_output.hpp"
 #include "json.hpp"
-#include "results/quantities.hpp"
+#include "results/columns.hpp"
 #include "terminal_table.hpp"
 
 using namespace slipfront::catalogue;

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "foundation/clock.hpp"
+#include "foundation/machine.hpp"
 
 /// The progress line of long computations.
 

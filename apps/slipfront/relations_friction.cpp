@@ -7,7 +7,6 @@
 
 #include "batch.hpp"
 #include "json.hpp"
-#include "slipfront/friction_ratio/front.hpp"
 #include "slipfront/friction_ratio/table.hpp"
 #include "terminal_table.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "record/files/text_file.hpp"
+#include "record/files/whole_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
 

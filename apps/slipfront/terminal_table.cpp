@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-#include "foundation/text/printable.hpp"
+#include "foundation/text/characters.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "commands.hpp"
-#include "foundation/sanitized.hpp"
+#include "foundation/machine.hpp"
 
 namespace {
 

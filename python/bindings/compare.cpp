@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "foundation/math/constants.hpp"
-#include "record/files/unfinished.hpp"
-#include "record/runs/comparison_file.hpp"
+#include "record/files/whole_file.hpp"
+#include "record/runs/run_file.hpp"
 #include "results.hpp"
 #include "run/run.hpp"
 #include "scenario/estimate.hpp"

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "record/events/event_csv.hpp"
-#include "record/files/text_file.hpp"
-#include "record/files/unfinished.hpp"
+#include "record/events/event_groups.hpp"
+#include "record/files/whole_file.hpp"
 #include "results/columns.hpp"
 #include "run/catalogue.hpp"
 #include "slipfront/catalogue/read.hpp"

@@ -10,12 +10,11 @@
 
 #include "bindings.hpp"
 #include "foundation/machine.hpp"
-#include "foundation/text/printable.hpp"
+#include "foundation/text/characters.hpp"
 #include "record/files/seal.hpp"
-#include "record/files/text_file.hpp"
-#include "record/files/unfinished.hpp"
-#include "record/netcdf/dataset_file.hpp"
+#include "record/files/whole_file.hpp"
 #include "record/netcdf/netcdf.hpp"
+#include "record/netcdf/table_file.hpp"
 
 namespace {
 

@@ -1,7 +1,6 @@
 #include <string>
 
 #include "columns.hpp"
-#include "slipfront/friction_ratio/front.hpp"
 #include "slipfront/friction_ratio/table.hpp"
 
 namespace {

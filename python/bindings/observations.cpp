@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "record/files/text_file.hpp"
+#include "record/files/whole_file.hpp"
 #include "run/catalogue.hpp"
 #include "slipfront/catalogue/read.hpp"
 

@@ -7,9 +7,8 @@
 #include <utility>
 #include <variant>
 
-#include "record/files/text_file.hpp"
-#include "record/files/unfinished.hpp"
-#include "record/runs/run_variables.hpp"
+#include "record/files/whole_file.hpp"
+#include "record/runs/run_file.hpp"
 #include "run/tables.hpp"
 
 using namespace slipfront;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "foundation/clock.hpp"
+#include "foundation/machine.hpp"
 #include "record/runs/arrays.hpp"
 #include "record/runs/run_file.hpp"
 #include "run/run.hpp"

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "record/files/text_file.hpp"
+#include "record/files/whole_file.hpp"
 #include "results.hpp"
 #include "run/errors.hpp"
-#include "run/fault_plane.hpp"
+#include "run/fault.hpp"
 #include "run/run.hpp"
 #include "watch.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "columns.hpp"
 #include "foundation/text/digits.hpp"
-#include "slipfront/elliptic/jacobi.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/rupture/riemann_trains.hpp"

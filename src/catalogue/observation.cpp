@@ -1,7 +1,7 @@
 #include "slipfront/catalogue/observation.hpp"
 
+#include "foundation/text/characters.hpp"
 #include "foundation/text/digits.hpp"
-#include "foundation/text/nearest.hpp"
 #include "slipfront/medium/quantity.hpp"
 
 namespace slipfront::catalogue {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "chain/model/barrier.hpp"
+#include "chain/model/initial_train.hpp"
 #include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "chain/run_observer.hpp"
-#include "slipfront/output/self_check.hpp"
+#include "slipfront/output/quantities.hpp"
 #include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::chain {

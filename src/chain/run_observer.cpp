@@ -8,9 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "chain/measure/average.hpp"
-#include "chain/measure/dislocations.hpp"
-#include "chain/measure/smooth_average.hpp"
+#include "chain/measure/averages.hpp"
 #include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "chain/measure/smooth_average.hpp"
+#include "chain/measure/averages.hpp"
 #include "chain/measure/totals.hpp"
 #include "foundation/archive.hpp"
 #include "slipfront/chain/run.hpp"

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "chain/explicit/explicit_chain.hpp"
+#include "chain/implicit/implicit_chain.hpp"
 #include "foundation/ranks.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
@@ -96,6 +98,11 @@ ScaledStart scaled_start(const ScaledProblem& scaled, const Execution& execution
   std::optional<ScaledStart> made;
   execution.ranks->together([&] { made = scaled_start(scaled, execution.ranks->share_of_machine()); });
   return *std::move(made);
+}
+
+std::unique_ptr<Chain> make_chain(const Problem& problem, const MotionOf& start, const Execution& execution) {
+  if (problem.implicit) return std::make_unique<ImplicitChain>(problem, start, execution);
+  return std::make_unique<ExplicitChain>(problem, start, execution);
 }
 
 }  // namespace slipfront::chain

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "chain/model/initial_train.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/chain/run.hpp"
@@ -16,5 +18,8 @@ struct ScaledStart {
 ScaledStart scaled_start(const ScaledProblem& scaled, double share_of_machine = 1);
 /// (all) All ranks throw the same error together.
 ScaledStart scaled_start(const ScaledProblem& scaled, const Execution& execution);
+
+/// A chain of the steps that the problem asks for. \throws InputError as ExplicitChain and ImplicitChain do.
+std::unique_ptr<Chain> make_chain(const Problem& problem, const MotionOf& start, const Execution& execution = {});
 
 }  // namespace slipfront::chain

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "foundation/text/printable.hpp"
+#include "foundation/text/characters.hpp"
 
 namespace slipfront {
 std::string one_line(const Complaint& c) {

@@ -1,6 +1,10 @@
 #pragma once
 /// \file
 /// What this machine has for one process.
+/// Whether this is a build under AddressSanitizer.
+/// Wall time.
+
+#include <chrono>
 
 namespace slipfront {
 
@@ -11,5 +15,26 @@ double usable_memory();
 /// `wanted` threads, but no more than can be of use: many that do nothing take memory, and the OpenMP runtime ends the
 /// program when one cannot be started.
 int sensible_threads(int wanted);
+
+}  // namespace slipfront
+
+#if defined(__SANITIZE_ADDRESS__)
+#define SLIPFRONT_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SLIPFRONT_SANITIZED 1
+#endif
+#endif
+#ifndef SLIPFRONT_SANITIZED
+#define SLIPFRONT_SANITIZED 0
+#endif
+
+namespace slipfront {
+
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 }  // namespace slipfront

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "slipfront/friction/friction.hpp"
+#include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {
 
@@ -15,5 +17,9 @@ void check_scaling(const Friction& original, const Friction& scaled, double scal
 /// Checks a law none of whose parameters is a force > 0: it has to have no force.
 /// \throws InputError (key "friction")
 void check_no_force(const Definition& definition, const std::vector<double>& values);
+
+/// A law whose force at each position is a share of that of another law, as where the normal stress or the only
+/// coefficient of a law varies. The share is the last value in the state of a position.
+std::shared_ptr<const Law> scaled_law(std::shared_ptr<const Law> law);
 
 }  // namespace slipfront::friction

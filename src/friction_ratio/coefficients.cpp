@@ -1,8 +1,8 @@
 // The compiler embeds the numbers of the files *.csv, in which a comma follows each number.
 
-#include "friction_ratio/coefficients.hpp"
-
 #include <bit>
+
+#include "friction_ratio/layout.hpp"
 
 namespace slipfront::friction_ratio {
 namespace {

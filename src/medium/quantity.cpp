@@ -5,15 +5,102 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 
-#include "foundation/text/trimmed.hpp"
-#include "medium/plain_text.hpp"
+#include "foundation/text/characters.hpp"
+#include "foundation/text/digits.hpp"
+#include "medium/unit_names.hpp"
 #include "medium/units.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::medium {
+namespace {
+
+struct Prefix {
+  std::string_view name, symbol;
+  double factor;
+};
+
+/// "da" before "d".
+constexpr Prefix prefixes[] = {
+    {"yotta", "Y", 1e24}, {"zetta", "Z", 1e21},  {"exa", "E", 1e18},   {"peta", "P", 1e15},   {"tera", "T", 1e12},
+    {"giga", "G", 1e9},   {"mega", "M", 1e6},    {"kilo", "k", 1e3},   {"hecto", "h", 100},   {"deka", "da", 10},
+    {"deci", "d", 0.1},   {"centi", "c", 0.01},  {"milli", "m", 1e-3}, {"micro", "u", 1e-6},  {"nano", "n", 1e-9},
+    {"pico", "p", 1e-12}, {"femto", "f", 1e-15}, {"atto", "a", 1e-18}, {"zepto", "z", 1e-21}, {"yocto", "y", 1e-24}};
+
+const Unit* find(std::span<const NamedUnit> table, std::string_view name) {
+  const auto at = std::lower_bound(table.begin(), table.end(), name,
+                                   [](const NamedUnit& unit, std::string_view wanted) { return unit.name < wanted; });
+  return at != table.end() && at->name == name ? &at->unit : nullptr;
+}
+
+/// The prefix that `text` begins with, if any.
+const Prefix* find_prefix(std::string_view text, std::string_view Prefix::*kind) {
+  for (const Prefix& prefix : prefixes)
+    if (text.starts_with(prefix.*kind)) return &prefix;
+  return nullptr;
+}
+
+/// A name or a symbol behind prefixes, of which one may be a symbol.
+std::optional<Unit> named(std::string_view word) {
+  const std::string lowered = small_letters(word);
+  double factor = 1;
+  bool may_be_symbol = true;
+  for (std::string_view small = lowered; !word.empty(); small.remove_prefix(small.size() - word.size())) {
+    const Unit* unit = find(unit_names, small);
+    if (!unit) unit = find(unit_symbols, word);
+    if (unit) return Unit{factor * unit->factor, unit->powers};
+    const Prefix* prefix = find_prefix(small, &Prefix::name);
+    if (prefix) {
+      word.remove_prefix(prefix->name.size());
+    } else {
+      prefix = may_be_symbol ? find_prefix(word, &Prefix::symbol) : nullptr;
+      if (!prefix) return std::nullopt;
+      may_be_symbol = false;
+      word.remove_prefix(prefix->symbol.size());
+    }
+    factor *= prefix->factor;
+  }
+  return std::nullopt;
+}
+
+/// The factor that `text` begins with, a name with an optional exponent; moves `text` past it.
+std::optional<Unit> take_factor(std::string_view& text) {
+  std::size_t size = 0;
+  while (size < text.size() && is_letter(text[size])) ++size;
+  if (size == 0 && !text.empty() && text.front() == '%') size = 1;
+  std::optional<Unit> unit = named(text.substr(0, size));
+  text.remove_prefix(size);
+  const bool caret = !text.empty() && text.front() == '^';
+  const std::size_t sign = caret ? 1 : 0;
+  const std::size_t digit = sign + (text.size() > sign && text[sign] == '-' ? 1 : 0);
+  if (text.size() <= digit || !is_digit(text[digit])) return caret ? std::nullopt : unit;
+  const int exponent = (digit > sign ? -1 : 1) * (text[digit] - '0');
+  text.remove_prefix(digit + 1);
+  if (!unit) return std::nullopt;
+  unit->factor = std::pow(unit->factor, exponent);
+  for (int& power : unit->powers) power *= exponent;
+  return unit;
+}
+
+}  // namespace
+
+std::optional<Unit> parse_unit(std::string_view text) {
+  Unit product;
+  for (int sign = 1;;) {
+    const std::optional<Unit> unit = take_factor(text);
+    if (!unit) return std::nullopt;
+    product.factor *= sign > 0 ? unit->factor : 1 / unit->factor;
+    for (std::size_t i = 0; i < product.powers.size(); ++i) product.powers[i] += sign * unit->powers[i];
+    if (text.empty()) return product;
+    if (std::string_view("/*. ").find(text.front()) == std::string_view::npos) return std::nullopt;
+    sign = text.front() == '/' ? -1 : 1;
+    text.remove_prefix(1);
+  }
+}
+
 namespace {
 
 struct Kind {
@@ -170,6 +257,122 @@ Span parse_quantity(std::string_view text, Dimension dimension, std::string_view
   if (!std::isfinite(span.low) || !std::isfinite(span.high))
     throw refuse("not finite in SI units", kind(dimension).example);
   return span;
+}
+
+namespace {
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+constexpr std::pair<std::string_view, std::string_view> characters[] = {
+    {"\xC2\xA0", " "},                 // no-break space
+    {"\xE2\x80\x89", " "},             // thin space
+    {"\xE2\x80\xAF", " "},             // narrow no-break space
+    {"\xE2\x88\x92", "-"},             // minus sign
+    {"\xE2\x80\x90", "-"},             // hyphen
+    {"\xE2\x80\x91", "-"},             // non-breaking hyphen
+    {"\xE2\x81\xBB", "-"},             // superscript minus
+    {"\xC2\xB7", " "},                 // middle dot
+    {"\xE2\x8B\x85", " "},             // dot operator
+    {"\xC2\xB5", "u"},                 // micro sign
+    {"\xCE\xBC", "u"},                 // Greek mu
+    {"\xC3\x97", "x"},                 // multiplication sign
+    {"\xE2\x89\xA4", "<"},             // less or equal
+    {"\xE2\x89\xA5", ">"},             // greater or equal
+    {"\xE2\x89\x88", "~"},             // almost equal
+    {"\xE2\x80\x94", "\xE2\x80\x93"},  // em dash -> en dash
+    {"\xE2\x80\x92", "\xE2\x80\x93"},  // figure dash -> en dash
+};
+constexpr std::string_view superscripts[] = {"\xE2\x81\xB0", "\xC2\xB9",     "\xC2\xB2",     "\xC2\xB3",
+                                             "\xE2\x81\xB4", "\xE2\x81\xB5", "\xE2\x81\xB6", "\xE2\x81\xB7",
+                                             "\xE2\x81\xB8", "\xE2\x81\xB9"};
+
+/// Replaces typographic characters. A superscript after "10" is an exponent.
+std::string plain_characters(std::string_view text) {
+  std::string plain(text);
+  if (std::all_of(plain.begin(), plain.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; }))
+    return plain;
+  replace_all(plain, "10\xE2\x81\xBB", "10^-");  // a superscript minus
+  for (const auto& digit : superscripts) replace_all(plain, "10" + std::string(digit), "10^" + std::string(digit));
+  for (std::size_t i = 0; i < std::size(superscripts); ++i)
+    replace_all(plain, superscripts[i], std::string(1, static_cast<char>('0' + i)));
+  for (const auto& [from, to] : characters) replace_all(plain, from, to);
+  return plain;
+}
+
+/// "1.2 x 10^18" -> "1.2e18".
+void join_powers_of_ten(std::string& text) {
+  for (std::size_t at = text.find("10^"); at != std::string::npos; at = text.find("10^", at + 1)) {
+    std::size_t begin = at;
+    while (begin > 0 && text[begin - 1] == ' ') --begin;
+    if (begin == 0 || std::string_view("xX*").find(text[begin - 1]) == std::string_view::npos) continue;
+    --begin;
+    while (begin > 0 && text[begin - 1] == ' ') --begin;
+    if (begin > 0 && (is_digit(text[begin - 1]) || text[begin - 1] == '.')) text.replace(begin, at + 3 - begin, "e");
+  }
+}
+
+/// A dash or the word "to" between two numbers is a range; a dash before a number is its sign.
+void join_ranges(std::string& text) {
+  for (const std::string_view word : {"\xE2\x80\x93", " to "}) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      const std::string_view after = trimmed(std::string_view(text).substr(at + word.size()));
+      const std::string_view before = trimmed(std::string_view(text).substr(0, at));
+      const bool number_follows = !after.empty() && (is_digit(after.front()) || after.front() == '.');
+      if (number_follows) text.replace(at, word.size(), before.empty() ? "-" : " .. ");
+    }
+  }
+}
+
+bool is_known(std::string_view unit) { return parse_unit(unit).has_value(); }
+
+}  // namespace
+
+std::string plain_number(std::string_view text) {
+  std::string plain = plain_characters(text);
+  join_powers_of_ten(plain);
+  join_ranges(plain);
+  return std::string(trimmed(plain));
+}
+
+std::string plain_unit(std::string_view text) {
+  std::string unit = plain_characters(trimmed(text));
+  if (unit.size() > 1 && ((unit.front() == '(' && unit.back() == ')') || (unit.front() == '[' && unit.back() == ']')))
+    unit = unit.substr(1, unit.size() - 2);
+  unit = trimmed(unit);
+  for (const auto& [from, to] : {std::pair<std::string_view, std::string_view>{"Nm", "N m"},
+                                 {"N-m", "N m"},
+                                 {"dyn-cm", "dyne cm"},
+                                 {"dyne-cm", "dyne cm"},
+                                 {"dyn cm", "dyne cm"},
+                                 {"dyncm", "dyne cm"},
+                                 {"dyn.cm", "dyne cm"},
+                                 {"dyn*cm", "dyne cm"}})
+    if (unit == from) return std::string(to);
+  if (unit.empty() || is_known(unit)) return unit;
+  std::string small = small_letters(unit);
+  replace_all(small, "hrs", "hr");
+  replace_all(small, "yrs", "yr");
+  replace_all(small, "secs", "s");
+  if (small == "wk" || small == "wks") small = "week";
+  if (small == "mins") small = "min";
+  if (is_known(small)) return small;
+  return unit;
+}
+
+std::string plain_column_unit(std::string_view text) {
+  std::string plain = plain_number(text);
+  if (plain.starts_with('x')) plain = trimmed(std::string_view(plain).substr(1));
+  if (plain.starts_with("10^")) plain.replace(0, 3, "1e");
+  const auto blank = plain.find(' ');
+  const auto scale = number(std::string_view(plain).substr(0, blank));
+  const std::string unit = scale && blank != std::string::npos ? plain_unit(plain.substr(blank)) : "";
+  if (!is_known(unit) || !(*scale > 0)) return plain_unit(text);
+  std::string factor = shortest(*scale);
+  factor.erase(std::remove(factor.begin(), factor.end(), '+'), factor.end());
+  return factor + " " + unit;
 }
 
 }  // namespace slipfront::medium

@@ -6,6 +6,9 @@
 #include <limits>
 #include <tuple>
 
+#include "foundation/archive.hpp"
+#include "slipfront/output/run.hpp"
+
 namespace slipfront::output {
 
 void sort(std::vector<Dislocation>& dislocations) {
@@ -27,5 +30,7 @@ Observed observed_fronts(const std::vector<double>& x, const std::vector<double>
   };
   return {first > 0 ? crossing(first - 1, first) : left, last < n ? crossing(last, last - 1) : right};
 }
+
+std::string Run::saved() const { return slipfront::saved(*this); }
 
 }  // namespace slipfront::output

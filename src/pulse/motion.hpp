@@ -11,8 +11,8 @@
 
 #include "foundation/archive.hpp"
 #include "foundation/math/constants.hpp"
-#include "pulse/checks/slip_record.hpp"
-#include "slipfront/output/self_check.hpp"
+#include "pulse/checks/checks.hpp"
+#include "slipfront/output/quantities.hpp"
 #include "slipfront/output/snapshot.hpp"
 #include "slipfront/pulse/problem.hpp"
 

@@ -1,13 +1,17 @@
 #pragma once
+/// \file
+/// One train at each position takes over from many (docs/theory/9_trains.md 9.7).
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "pulse/checks/slip_record.hpp"
+#include "pulse/checks/checks.hpp"
+#include "pulse/contours/many_trains.hpp"
 #include "pulse/motion.hpp"
-#include "pulse/observe/energy.hpp"
-#include "pulse/observe/trailing_characteristic.hpp"
+#include "pulse/observe/fronts.hpp"
+#include "pulse/observe/observe.hpp"
 #include "pulse/solver.hpp"
 
 namespace slipfront::pulse {
@@ -51,5 +55,12 @@ class OneTrain : public Motion {
   SlipRecord slip_;                    ///< at x = 0
   std::vector<std::string> warnings_;  ///< those of the trains before
 };
+
+/// Cells with the dislocations and the momentum of many trains. `cells` are those of the same problem at t = 0.
+Cells cells_of(const ManyTrains& trains, Cells cells);
+
+/// The motion that continues from a motion that is over, in a run with this schedule. \throws NumericsError if that has
+/// wrong results.
+std::unique_ptr<OneTrain> one_train_after(const ManyTrains& trains, const output::Schedule& schedule);
 
 }  // namespace slipfront::pulse

@@ -2,10 +2,9 @@
 
 #include <utility>
 
-#include "pulse/grid/initial_grid.hpp"
-#include "pulse/grid/start.hpp"
+#include "pulse/grid/layout.hpp"
 #include "pulse/steps/stepper.hpp"
-#include "pulse/view/slip.hpp"
+#include "pulse/view/view.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {

@@ -1,14 +1,17 @@
 #pragma once
 /// \file
 /// Applies the theory to the entries of a file.
+/// Estimates the memory and the disk space that the events of a catalogue need.
+/// Stores, as bytes, the parts of a result that take time to compute, so that an interrupted catalogue can resume.
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "finite_fault/along_fault.hpp"
-#include "finite_fault/pulse_along_fault.hpp"
 #include "slipfront/description.hpp"
 #include "slipfront/inference/estimate.hpp"
 #include "slipfront/inference/posterior.hpp"
@@ -47,5 +50,29 @@ struct EvaluationOptions {
 
 /// Evaluates an entry. It never throws InputError; the result contains the error instead.
 EventResult evaluate(catalogue::Entry&& entry, const medium::Defaults& defaults, const EvaluationOptions& options);
+
+/// Bytes of memory to evaluate `events` events, `at_once` of them at a time, and to store their results.
+double memory_needed(const EvaluationOptions& options, std::size_t events, int at_once);
+/// Bytes of the file of these results, which is created in memory.
+double disk_needed(const EvaluationOptions& options, std::size_t events);
+/// \throws InputError if this needs more memory than this process may have. The error states both numbers.
+void require_memory(const EvaluationOptions& options, std::size_t events, int at_once, bool with_file = false);
+
+/// The parts of a result that take time to compute. The rest follows quickly from its entry.
+struct SavedResult {
+  std::optional<inference::Posterior> posterior = {};
+  std::optional<finite_fault::FaultPulse> pulse = {};
+  std::string error = {};
+};
+
+/// Evaluates an entry with the saved parts of its result. The result is identical to that of the first evaluation.
+EventResult evaluate(catalogue::Entry&& entry, const medium::Defaults& defaults, const EvaluationOptions& options,
+                     SavedResult&& found);
+
+/// The saved parts of these results.
+std::string serialize(std::span<const EventResult> results);
+
+/// Reads the output of `serialize`. \throws InputError if `saved` is not such output.
+std::vector<SavedResult> deserialize(std::string_view saved);
 
 }  // namespace slipfront::results

@@ -3,9 +3,9 @@
 #include <system_error>
 #include <vector>
 
-#include "foundation/clock.hpp"
+#include "foundation/machine.hpp"
 #include "foundation/text/digits.hpp"
-#include "record/files/unfinished.hpp"
+#include "record/files/whole_file.hpp"
 #include "run/run.hpp"
 #include "slipfront/error.hpp"
 

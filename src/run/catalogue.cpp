@@ -7,11 +7,10 @@
 
 #include "catalogue/population.hpp"
 #include "finite_fault/sources.hpp"
-#include "foundation/clock.hpp"
+#include "foundation/machine.hpp"
 #include "foundation/parallel.hpp"
-#include "results/memory.hpp"
-#include "results/quantities.hpp"
-#include "results/serialize.hpp"
+#include "results/columns.hpp"
+#include "results/evaluate.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/error.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "record/events/event_file.hpp"
-#include "record/files/unfinished.hpp"
+#include "record/files/whole_file.hpp"
 #include "results/evaluate.hpp"
 #include "slipfront/catalogue/observation.hpp"
 #include "slipfront/catalogue/read.hpp"

@@ -9,7 +9,7 @@
 
 #include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
-#include "pulse/checks/slip_record.hpp"
+#include "pulse/checks/checks.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/problem.hpp"

@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "record/files/unfinished.hpp"
-#include "record/runs/comparison_file.hpp"
+#include "record/files/whole_file.hpp"
+#include "record/runs/run_file.hpp"
 #include "run/errors.hpp"
-#include "run/fault_plane.hpp"
+#include "run/fault.hpp"
 #include "slipfront/scenario/problem.hpp"
 #include "slipfront/scenario/scenario.hpp"
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "foundation/clock.hpp"
+#include "foundation/machine.hpp"
 #include "foundation/ranks.hpp"
-#include "record/files/unfinished.hpp"
+#include "record/files/whole_file.hpp"
 #include "record/runs/arrays.hpp"
 #include "record/runs/run_file.hpp"
 #include "run/compare.hpp"

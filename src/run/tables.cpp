@@ -2,9 +2,9 @@
 
 #include "catalogue/fault_model.hpp"
 #include "finite_fault/on_plane.hpp"
-#include "record/files/text_file.hpp"
+#include "record/files/whole_file.hpp"
 #include "record/netcdf/table_file.hpp"
-#include "run/fault_plane.hpp"
+#include "run/fault.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::run {

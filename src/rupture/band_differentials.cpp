@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "foundation/math/linear.hpp"
+#include "foundation/math/interpolation.hpp"
 
 namespace slipfront::rupture {
 namespace {

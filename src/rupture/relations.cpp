@@ -1,15 +1,18 @@
 #include "slipfront/rupture/relations.hpp"
 
+#include <array>
 #include <cfloat>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "foundation/math/roots.hpp"
 #include "foundation/text/digits.hpp"
 #include "rupture/inverse.hpp"
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/characteristics.hpp"
+#include "slipfront/modulation/modulation.hpp"
+#include "slipfront/rupture/riemann.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::rupture {
@@ -106,6 +109,102 @@ std::span<const RelationsQuantity> relations_quantities() {
       {{"psi_at_origin", "psi at x = 0", "", "Eqs. 8-10"}, &Relations::psi_at_origin},
   };
   return quantities;
+}
+
+namespace {
+
+using std::numbers::pi;
+
+}  // namespace
+
+double psi_of_sound_speed(double V) {
+  if (V > 0.5) {  // 1 - V is exact here, and 1 - c0 = m^2 / 16 keeps the digits that c0 loses
+    const double rest = 1 - V;
+    const auto residual = [rest](double psi) {
+      const modulation::Sound c = modulation::sound(psi);
+      return Residual{std::log(c.one_minus / rest), -psi * c.c0 * c.log_slope / c.one_minus};
+    };
+    const double m = 4 * std::sqrt(rest);
+    return newton_in_log(m < 0.8 ? std::acosh(1 / std::sqrt(m)) : 0.3, residual, "psi of a rupture velocity");
+  }
+  const auto residual = [V](double psi) {
+    const modulation::Sound c = modulation::sound(psi);
+    return Residual{std::log(c.c0 / V), psi * c.log_slope};
+  };
+  const double L = std::log(4 / V);
+  return newton_in_log(V / (L + std::log(L)), residual, "psi of a rupture velocity");
+}
+
+double psi_of_fan(double r) {
+  const auto residual = [r](double psi) {
+    const modulation::Sound c = modulation::sound(psi);
+    const double sum = psi + c.rapidity;
+    return Residual{std::log(sum / r), psi * (1 + c.slope) / sum};
+  };
+  const double L = 1 + std::log1p(4 / r);
+  return newton_in_log(r < 2 ? r / (L + std::log(L)) : (r - 0.34) / 3, residual, "psi in the fan");
+}
+
+State state_in_left_fan(double upper_edge, double x_over_t) {
+  const double above = upper_edge - std::atanh(x_over_t);
+  if (!(above > 0)) return {upper_edge, 0};
+  const double psi = psi_of_fan(above);
+  return {upper_edge - psi, psi};
+}
+
+double psi_of_origin_slip_velocity(double W) {
+  const auto residual = [W](double psi) {
+    const elliptic::AtPsi at = elliptic::at_psi(psi);
+    const modulation::Sound c = modulation::sound(psi);
+    const double value = pi * std::sinh(c.rapidity) * std::cosh(psi) / at.K;
+    return Residual{std::log(value / W),
+                    psi * (c.slope / std::tanh(c.rapidity) + std::tanh(psi) - elliptic::log_slope_of_K(at))};
+  };
+  return newton_in_log(W < 1 ? W / pi : std::log(1 + 1.5 * W) / 3, residual, "psi of a slip velocity");
+}
+
+RiemannSolution slip_pulse(double stress) { return solve_riemann({0, from_stress(stress).psi}, State{}); }
+
+std::string_view name_of(Wave::Kind kind) {
+  static constexpr std::array<std::string_view, 4> names = {"none", "fan", "shock", "two-trains"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+ProfilePoint profile_point(const State& state) {
+  const train::Averages a = train::averages(state);
+  return {state.empty() ? 0.0 : std::tanh(state.phi), a.k, a.W, a.P};
+}
+
+ProfilePoint profile_point(const RiemannSolution& solution, double x_over_t) {
+  return profile_point(sample(solution, x_over_t));
+}
+
+std::span<const ProfileQuantity> profile_quantities() {
+  static constexpr std::array<ProfileQuantity, 4> all = {{
+      {{"U", "velocity of the dislocations", "c", "Eqs. 8-9"}, &ProfilePoint::U},
+      {{"Sigma", "stress", "mu A / pi", "Eqs. 8-9"}, &ProfilePoint::Sigma},
+      {{"W", "slip velocity", "c A / pi", "Eqs. 8-9"}, &ProfilePoint::W},
+      {{"P", "momentum density", "", "Eqs. 8-9"}, &ProfilePoint::P},
+  }};
+  return all;
+}
+
+State moving_train(double stress, double velocity, const std::string& side) {
+  constexpr double most_stress = 1e6;
+  if (!(std::fabs(velocity) <= 0.999999))
+    throw InputError({.key = side + "_velocity",
+                      .value = digits(velocity),
+                      .problem = "out of range",
+                      .allowed = "-0.999999 ... 0.999999, in c"});
+  const double phi = std::atanh(velocity), at_rest = stress / std::cosh(phi);
+  if (stress == 0) return {phi, 0};
+  if (!(at_rest >= train::smallest_stress && stress <= most_stress))
+    throw InputError(
+        {.key = side + "_stress",
+         .value = digits(stress),
+         .problem = "out of range",
+         .allowed = "0, or " + digits(train::smallest_stress * std::cosh(phi), 4) + " ... 1e6, in mu A / pi"});
+  return {phi, train::psi_of_stress(at_rest)};
 }
 
 }  // namespace slipfront::rupture

@@ -8,9 +8,9 @@
 #include "foundation/text/digits.hpp"
 #include "modulation/equations.hpp"
 #include "rupture/inverse.hpp"
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/characteristics.hpp"
+#include "slipfront/modulation/modulation.hpp"
 
 // The 2-wave is the 1-wave of the mirrored problem (x -> -x, phi -> -phi), so this file computes only the 1-wave.
 

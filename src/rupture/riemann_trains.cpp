@@ -10,7 +10,7 @@
 #include "foundation/text/digits.hpp"
 #include "rupture/inverse.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/characteristics.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 // Edges of the bands on both sides: a = phi - psi and b = phi + psi. The wave of the upper edge takes b_left to b_right

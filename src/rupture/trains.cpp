@@ -6,10 +6,10 @@
 #include <numbers>
 #include <string>
 
-#include "foundation/math/linear.hpp"
+#include "foundation/math/interpolation.hpp"
 #include "foundation/text/digits.hpp"
 #include "rupture/band_differentials.hpp"
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::rupture {

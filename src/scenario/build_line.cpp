@@ -8,7 +8,7 @@
 
 #include "foundation/text/digits.hpp"
 #include "scenario/estimate.hpp"
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/rupture/riemann_trains.hpp"
 #include "slipfront/scenario/problem.hpp"

@@ -6,12 +6,11 @@
 #include <map>
 #include <utility>
 
+#include "foundation/text/characters.hpp"
 #include "foundation/text/digits.hpp"
 #include "foundation/text/file_kind.hpp"
-#include "foundation/text/nearest.hpp"
 #include "foundation/text/parse_toml.hpp"
 #include "foundation/text/toml_text.hpp"
-#include "foundation/text/trimmed.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/scenario/scenario.hpp"
 

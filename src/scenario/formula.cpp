@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "foundation/text/characters.hpp"
-#include "foundation/text/nearest.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "foundation/text/characters.hpp"
 #include "foundation/text/digits.hpp"
-#include "foundation/text/nearest.hpp"
 #include "scenario/document.hpp"
 #include "scenario/readers.hpp"
 #include "scenario/section.hpp"

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "foundation/text/characters.hpp"
 #include "foundation/text/digits.hpp"
-#include "foundation/text/nearest.hpp"
-#include "foundation/text/trimmed.hpp"
-#include "medium/plain_text.hpp"
+#include "medium/units.hpp"
 #include "scenario/document.hpp"
 #include "slipfront/medium/quantity.hpp"
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "chain/implicit/implicit_chain.hpp"
-#include "chain/make_chain.hpp"
 #include "chain/measure/totals.hpp"
 #include "chain/model/initial_train.hpp"
+#include "chain/scaled_start.hpp"
 #include "chain_cases.hpp"
 #include "foundation/archive.hpp"
 #include "slipfront/chain/run.hpp"

@@ -4,9 +4,8 @@
 #include <limits>
 
 #include "chain/explicit/explicit_chain.hpp"
-#include "chain/explicit/levels/levels.hpp"
-#include "chain/measure/average.hpp"
-#include "chain/measure/dislocations.hpp"
+#include "chain/explicit/levels/contact_force.hpp"
+#include "chain/measure/averages.hpp"
 #include "chain/measure/totals.hpp"
 #include "chain/model/initial_train.hpp"
 #include "exact_chains.hpp"

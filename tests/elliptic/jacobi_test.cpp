@@ -1,5 +1,3 @@
-#include "slipfront/elliptic/jacobi.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 
 #include "error_metric.hpp"
 #include "reference_table.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/error.hpp"
 
 namespace {

@@ -1,10 +1,9 @@
-#include "finite_fault/pulse_along_fault.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "finite_fault/along_fault.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace {

@@ -1,10 +1,10 @@
-#include "finite_fault/source/static_stress.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <numbers>
+
+#include "finite_fault/source/source.hpp"
 
 namespace {
 

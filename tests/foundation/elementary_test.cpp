@@ -8,8 +8,8 @@
 #include "foundation/simd/elliptic_fit.hpp"
 #include "modulation/solve_states.hpp"
 #include "pulse/space/kernels.hpp"
-#include "slipfront/elliptic/complete.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
+#include "slipfront/modulation/modulation.hpp"
 
 namespace {
 

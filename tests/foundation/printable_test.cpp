@@ -1,11 +1,10 @@
 // Text for a terminal: nothing in it is obeyed.
 
-#include "foundation/text/printable.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "foundation/text/characters.hpp"
 #include "slipfront/error.hpp"
 
 namespace {

@@ -1,12 +1,11 @@
 // Runs that take far more steps than expected are given up.
 
-#include "foundation/step_budget.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
+#include "foundation/math/time_steps.hpp"
 #include "pulse/solver.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/problem.hpp"

@@ -1,9 +1,9 @@
-#include "foundation/math/step_control.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
+
+#include "foundation/math/time_steps.hpp"
 
 namespace {
 

@@ -1,5 +1,3 @@
-#include "slipfront/friction_ratio/front.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include "observed.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/friction_ratio/table.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace {

@@ -11,7 +11,7 @@
 
 #include "inference/tension.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/friction_ratio/front.hpp"
+#include "slipfront/friction_ratio/table.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"
 

@@ -1,9 +1,8 @@
-#include "slipfront/inference/predictive.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "slipfront/inference/estimate.hpp"
 #include "slipfront/inference/posterior.hpp"
 
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "inference/sampling/pareto.hpp"
 #include "inference/sampling/pulse_state.hpp"
 #include "inference/sampling/weighted_samples.hpp"
 #include "slipfront/inference/estimate.hpp"

@@ -11,7 +11,7 @@
 
 #include "foundation/machine.hpp"
 #include "slipfront/catalogue/read.hpp"
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/scenario/scenario.hpp"

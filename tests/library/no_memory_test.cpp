@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "allocations.hpp"
-#include "foundation/sanitized.hpp"
+#include "foundation/machine.hpp"
 #include "record/netcdf/table_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pulse/space/kernels.hpp"
-#include "slipfront/modulation/conservation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -1,11 +1,11 @@
+#include "slipfront/modulation/modulation.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "error_metric.hpp"
 #include "reference_table.hpp"
-#include "slipfront/modulation/characteristics.hpp"
-#include "slipfront/modulation/conservation.hpp"
 
 namespace {
 

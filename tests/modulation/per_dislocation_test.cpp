@@ -1,14 +1,12 @@
-#include "slipfront/modulation/per_dislocation.hpp"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 
 #include "error_metric.hpp"
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/characteristics.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

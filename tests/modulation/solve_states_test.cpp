@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "modulation/equations.hpp"
-#include "slipfront/elliptic/complete.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
+#include "slipfront/modulation/modulation.hpp"
 
 namespace {
 

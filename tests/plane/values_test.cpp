@@ -4,9 +4,9 @@
 #include <numbers>
 #include <vector>
 
-#include "plane/averaged/observe.hpp"
-#include "plane/grid/observe.hpp"
-#include "plane/grid/walls.hpp"
+#include "plane/averaged/steps.hpp"
+#include "plane/grid/cells.hpp"
+#include "plane/grid/grid_solver.hpp"
 #include "slipfront/error.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "law_values.hpp"
-#include "pulse/grid/start.hpp"
+#include "pulse/grid/layout.hpp"
 #include "pulse/steps/stepper.hpp"
 #include "slipfront/friction/friction.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "pulse/solver.hpp"
 #include "rupture/inverse.hpp"
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 

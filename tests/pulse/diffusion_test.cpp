@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pulse/solver.hpp"
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include "pulse/solver.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/pulse/run.hpp"
 
 namespace {

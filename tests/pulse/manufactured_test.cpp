@@ -9,7 +9,7 @@
 
 #include "pulse/solver.hpp"
 #include "slipfront/friction/friction.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -1,13 +1,14 @@
+#include "pulse/observe/observe.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "modulation/equations.hpp"
-#include "pulse/observe/energy.hpp"
 #include "pulse/solver.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/rupture/riemann.hpp"

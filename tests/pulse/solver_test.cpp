@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/conservation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/train/train.hpp"

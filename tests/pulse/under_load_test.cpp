@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pulse/checks/slip_record.hpp"
+#include "pulse/checks/checks.hpp"
 #include "pulse/solver.hpp"
 #include "slipfront/pulse/run.hpp"
 

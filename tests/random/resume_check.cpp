@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "record/files/text_file.hpp"
+#include "record/files/whole_file.hpp"
 #include "record/netcdf/table_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "record/files/seal.hpp"
-#include "record/files/text_file.hpp"
+#include "record/files/whole_file.hpp"
 #include "record/netcdf/netcdf.hpp"
 #include "record/runs/run_file.hpp"
-#include "results/quantities.hpp"
-#include "results/serialize.hpp"
+#include "results/columns.hpp"
+#include "results/evaluate.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/error.hpp"
 #include "temporary_folder.hpp"

@@ -12,7 +12,6 @@
 #include "record/files/seal.hpp"
 #include "record/netcdf/netcdf.hpp"
 #include "record/runs/run_file.hpp"
-#include "record/runs/run_variables.hpp"
 #include "slipfront/error.hpp"
 #include "temporary_folder.hpp"
 

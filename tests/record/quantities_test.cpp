@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "record/runs/run_variables.hpp"
+#include "record/runs/run_file.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/medium/si_units.hpp"
 #include "slipfront/output/slip_event.hpp"

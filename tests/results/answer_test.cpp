@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "finite_fault/sources.hpp"
-#include "inference/sampling/pareto.hpp"
+#include "inference/sampling/weighted_samples.hpp"
 #include "results/columns.hpp"
 #include "results/evaluate.hpp"
 #include "slipfront/catalogue/read.hpp"

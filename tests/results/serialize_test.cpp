@@ -1,11 +1,10 @@
-#include "results/serialize.hpp"
-
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 
 #include "results/columns.hpp"
+#include "results/evaluate.hpp"
 #include "slipfront/catalogue/read.hpp"
 
 namespace {

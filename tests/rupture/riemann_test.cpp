@@ -9,8 +9,7 @@
 #include "pde_residual.hpp"
 #include "reference_table.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/characteristics.hpp"
-#include "slipfront/modulation/conservation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/train/train.hpp"
 

@@ -14,7 +14,7 @@
 
 #include "reference_table.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/characteristics.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -8,7 +8,7 @@
 #include "commands.hpp"
 #include "computed.hpp"
 #include "front_computed.hpp"
-#include "slipfront/friction_ratio/front.hpp"
+#include "slipfront/friction_ratio/table.hpp"
 
 namespace slipfront::friction_ratio {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "foundation/math/parabola.hpp"
+#include "foundation/math/interpolation.hpp"
 #include "pulse/solver.hpp"
 #include "slipfront/rupture/relations.hpp"
 

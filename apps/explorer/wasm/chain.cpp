@@ -8,11 +8,9 @@
 #include <numbers>
 #include <span>
 
-#include "chain/make_chain.hpp"
-#include "chain/measure/dislocations.hpp"
-#include "chain/measure/smooth_average.hpp"
+#include "chain/measure/averages.hpp"
 #include "chain/scaled_start.hpp"
-#include "foundation/clock.hpp"
+#include "foundation/machine.hpp"
 #include "scenario.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"

@@ -9,9 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "chain/make_chain.hpp"
 #include "chain/scaled_start.hpp"
-#include "foundation/clock.hpp"
+#include "foundation/machine.hpp"
 #include "scenario.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "answer.hpp"
-#include "foundation/clock.hpp"
+#include "foundation/machine.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/plane/quantities.hpp"
 #include "slipfront/plane/run.hpp"

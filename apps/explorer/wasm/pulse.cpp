@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "foundation/clock.hpp"
+#include "foundation/machine.hpp"
 #include "foundation/text/digits.hpp"
 #include "scenario.hpp"
 #include "slipfront/error.hpp"

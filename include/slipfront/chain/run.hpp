@@ -16,7 +16,6 @@
 #include "slipfront/output/dislocation_paths.hpp"
 #include "slipfront/output/quantities.hpp"
 #include "slipfront/output/run.hpp"
-#include "slipfront/output/self_check.hpp"
 #include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::chain {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "slipfront/inference/estimate.hpp"
-#include "slipfront/inference/predictive.hpp"
 
 namespace slipfront::inference {
 

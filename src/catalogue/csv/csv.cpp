@@ -7,9 +7,7 @@
 #include "foundation/text/characters.hpp"
 #include "foundation/text/csv_records.hpp"
 #include "foundation/text/file_kind.hpp"
-#include "foundation/text/latin1.hpp"
-#include "foundation/text/trimmed.hpp"
-#include "medium/plain_text.hpp"
+#include "medium/units.hpp"
 
 namespace slipfront::catalogue {
 namespace {

@@ -4,8 +4,7 @@
 #include "catalogue/csv/csv.hpp"
 #include "foundation/text/characters.hpp"
 #include "foundation/text/csv_records.hpp"
-#include "foundation/text/trimmed.hpp"
-#include "medium/plain_text.hpp"
+#include "medium/units.hpp"
 
 namespace slipfront::catalogue {
 namespace {

@@ -2,12 +2,10 @@
 #include <set>
 
 #include "catalogue/csv/csv.hpp"
-#include "foundation/text/nearest.hpp"
+#include "foundation/text/characters.hpp"
 #include "foundation/text/parse_toml.hpp"
-#include "foundation/text/printable.hpp"
 #include "foundation/text/toml_text.hpp"
-#include "foundation/text/trimmed.hpp"
-#include "medium/plain_text.hpp"
+#include "medium/units.hpp"
 
 namespace slipfront::catalogue {
 namespace {

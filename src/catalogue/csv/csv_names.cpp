@@ -3,7 +3,6 @@
 
 #include "catalogue/csv/csv.hpp"
 #include "foundation/text/characters.hpp"
-#include "foundation/text/trimmed.hpp"
 
 namespace slipfront::catalogue {
 namespace {

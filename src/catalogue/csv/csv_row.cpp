@@ -4,11 +4,10 @@
 #include <cstdio>
 
 #include "catalogue/csv/csv.hpp"
-#include "catalogue/derived.hpp"
+#include "catalogue/keys.hpp"
 #include "foundation/text/characters.hpp"
 #include "foundation/text/digits.hpp"
-#include "foundation/text/trimmed.hpp"
-#include "medium/plain_text.hpp"
+#include "medium/units.hpp"
 
 namespace slipfront::catalogue {
 namespace {

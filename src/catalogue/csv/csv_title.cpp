@@ -4,9 +4,6 @@
 
 #include "catalogue/csv/csv.hpp"
 #include "foundation/text/characters.hpp"
-#include "foundation/text/nearest.hpp"
-#include "foundation/text/trimmed.hpp"
-#include "medium/plain_text.hpp"
 #include "medium/units.hpp"
 
 namespace slipfront::catalogue {

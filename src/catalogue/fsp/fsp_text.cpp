@@ -4,7 +4,6 @@
 
 #include "catalogue/fsp/fsp.hpp"
 #include "foundation/text/characters.hpp"
-#include "foundation/text/latin1.hpp"
 
 namespace slipfront::catalogue::fsp {
 namespace {

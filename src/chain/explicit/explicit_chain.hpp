@@ -7,7 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "chain/explicit/levels/levels.hpp"
+#include "chain/explicit/levels/contact_force.hpp"
+#include "chain/explicit/share.hpp"
 #include "slipfront/chain/chain.hpp"
 
 namespace slipfront::chain {
@@ -59,5 +60,9 @@ class ExplicitChain final : public Chain {
   std::unique_ptr<Share> share_;
   bool valid_ = true;
 };
+
+/// Sites [from, to) of a share, or of at most 4 next to it, after an exchange, at `time`, which is no more than a step
+/// away. u and velocity are of fourth order.
+Window window_of(const Share& share, std::size_t from, std::size_t to, double time);
 
 }  // namespace slipfront::chain

@@ -3,9 +3,9 @@
 #include <cstddef>
 
 #include "chain/explicit/forces.hpp"
-#include "chain/explicit/levels/levels.hpp"
+#include "chain/explicit/levels/contact_force.hpp"
 #include "chain/explicit/levels/scheme.hpp"
-#include "chain/model/start_check.hpp"
+#include "chain/model/initial_train.hpp"
 
 namespace slipfront::chain {
 

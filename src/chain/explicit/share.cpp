@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "chain/model/start_check.hpp"
+#include "chain/model/initial_train.hpp"
 #include "foundation/team.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"

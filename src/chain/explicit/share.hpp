@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "chain/explicit/forces.hpp"
-#include "chain/explicit/levels/levels.hpp"
+#include "chain/explicit/levels/contact_force.hpp"
 #include "chain/explicit/levels/scheme.hpp"
 #include "chain/explicit/levels/slab.hpp"
 #include "chain/explicit/sweep.hpp"
-#include "chain/explicit/work_meter.hpp"
 #include "chain/model/blocks.hpp"
 #include "foundation/ranks.hpp"
 #include "slipfront/chain/chain.hpp"

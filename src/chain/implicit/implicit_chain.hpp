@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "chain/implicit/implicit_step.hpp"
-#include "chain/implicit/moment.hpp"
 #include "chain/implicit/site_forces.hpp"
 #include "chain/implicit/watched_parts.hpp"
 #include "slipfront/chain/chain.hpp"
 
 namespace slipfront::chain {
+
+/// \throws InputError for conditions that implicit steps do not support, and for loading out of range.
+void check_implicit(const Problem& problem, const Execution& execution);
 
 /// A chain that advances by implicit steps of any length (ImplicitStep): for loading, and for whatever is slow
 /// (docs/loading.md). The length of a step follows an estimate of its error.

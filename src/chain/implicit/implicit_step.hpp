@@ -3,9 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "chain/implicit/moment.hpp"
+#include "chain/implicit/compact_springs.hpp"
 #include "chain/implicit/site_forces.hpp"
-#include "chain/implicit/tridiagonal.hpp"
 
 namespace slipfront::chain {
 

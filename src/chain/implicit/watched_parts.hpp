@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "chain/events/event_log.hpp"
-#include "chain/implicit/moment.hpp"
 #include "chain/implicit/site_forces.hpp"
 
 namespace slipfront::chain {

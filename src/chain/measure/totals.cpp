@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "chain/measure/elastic.hpp"
-#include "chain/measure/own_sites.hpp"
+#include "chain/measure/averages.hpp"
 #include "foundation/math/constants.hpp"
 
 namespace slipfront::chain {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 
 #include "finite_fault/along_fault.hpp"
 #include "finite_fault/source/build.hpp"
@@ -96,6 +98,167 @@ std::vector<double> slip_rates(const FiniteSource& source, const SourcePoint& po
     before = after;
   }
   return rates;
+}
+
+}  // namespace slipfront::finite_fault
+
+namespace slipfront::finite_fault::source {
+
+using catalogue::FaultPatch;
+
+namespace {
+
+/// Calls `visit` with each subfault of the source and of the model.
+template <class Source, class Visit>
+void for_each_point(Source& source, const catalogue::FaultModel& model, const Visit& visit) {
+  for (std::size_t k = 0; k < source.segments.size(); ++k)
+    for (std::size_t i = 0; i < source.segments[k].points.size(); ++i)
+      visit(source.segments[k].points[i], model.segments[k].patches[i]);
+}
+
+std::string count_of(std::size_t count, std::size_t all) {
+  return std::to_string(count) + " of " + std::to_string(all) + " subfaults";
+}
+
+}  // namespace
+
+void Builder::add_rupture_times(FiniteSource& out, double velocity, const std::string& how) const {
+  std::size_t all = 0, own = 0;
+  bool any_after_start = false;  // a column that is 0 everywhere is a placeholder
+  for_each_point(out, model_, [&](const SourcePoint&, const FaultPatch& from) {
+    ++all;
+    if (!from.rupture_time) return;
+    ++own;
+    any_after_start = any_after_start || *from.rupture_time > 0;
+  });
+  if (!any_after_start) own = 0;
+  if (own < all && !model_.hypocentre_depth)
+    refuse(model_.observation.line, "DEP",
+           "neither rupture times (TRUP) of all subfaults nor a depth of the hypocentre",
+           "a column TRUP, or DEP of Loc");
+  double first = 0;
+  for_each_point(out, model_, [&](SourcePoint& p, const FaultPatch& from) {
+    p.rupture_time = own > 0 && from.rupture_time
+                         ? *from.rupture_time
+                         : std::hypot(from.east, from.north, from.depth - *model_.hypocentre_depth) / velocity;
+    first = std::fmin(first, p.rupture_time);
+  });
+  for_each_point(out, model_, [&](SourcePoint& p, const FaultPatch&) { p.rupture_time -= first; });
+  if (own > 0) out.notes.push_back("rupture times: column TRUP for " + count_of(own, all));
+  if (own < all)
+    out.notes.push_back("rupture times: distance from the hypocentre over " + digits(velocity) + " m/s (" + how +
+                        ") for " + count_of(all - own, all));
+  if (first < 0)
+    out.notes.push_back("rupture times begin below 0: all are " + shortest(-first) + " s later than in the file");
+}
+
+void Builder::add_rise_times(FiniteSource& out) const {
+  const auto& stated = model_.observation.rise_time;
+  // Somerville et al. (1999): 2.03e-9 (moment in dyn cm)^(1/3) s.
+  const double mean = stated ? stated->middle() : 2.03e-9 * std::cbrt(1e7 * std::fabs(out.moment));
+  std::size_t all = 0, own = 0;
+  for_each_point(out, model_, [&](SourcePoint& p, const FaultPatch& from) {
+    p.rise_time = from.rise_time.value_or(mean);
+    ++all;
+    if (from.rise_time) ++own;
+  });
+  if (own > 0) out.notes.push_back("rise times: column RISE for " + count_of(own, all));
+  if (own == all) return;
+  out.notes.push_back(
+      "rise times: " + digits(mean, 4) + " s for " + count_of(all - own, all) +
+      (stated ? ", the mean of the file" : ", by the moment (Somerville et al. 1999), because the file has none"));
+}
+
+void Builder::add_local_velocities(FiniteSource& out, double speed) const {
+  const std::vector<LocalState> states = along_fault(model_.observation, defaults_);
+  for_each_point(out, model_, [&](SourcePoint& p, const FaultPatch& from) {
+    p.rupture_velocity = states[from.row].rupture_velocity_m_s;
+  });
+  if (const std::string warning = warning_of(faster_than(states, speed), speed); !warning.empty())
+    out.notes.push_back(warning);
+}
+
+}  // namespace slipfront::finite_fault::source
+
+namespace slipfront::finite_fault {
+namespace {
+
+/// Stress at a distance (along strike, up dip) from the centre of a rectangle that slips by 1, over mu / (4 pi).
+struct Kernel {
+  double along, up;  ///< stress along strike by slip along strike, and up dip by slip up dip
+  double cross;      ///< stress in one direction by slip in the other
+};
+
+/// Second derivatives of the integral of 1 / r over the rectangle. In space, 1 / k is 1 / (2 pi r) and k_i is -i d_i.
+Kernel kernel(double x, double y, double length, double width, double poisson_ratio) {
+  double xx = 0, yy = 0, xy = 0;
+  for (const int i : {1, -1})
+    for (const int j : {1, -1}) {
+      const double a = x + i * length / 2, b = y + j * width / 2, r = std::hypot(a, b);
+      xx -= i * j * b / (a * r);
+      yy -= i * j * a / (b * r);
+      xy += i * j / r;
+    }
+  const double mode_2 = 1 / (1 - poisson_ratio);
+  return {mode_2 * xx + yy, xx + mode_2 * yy, (mode_2 - 1) * xy};
+}
+
+/// Components along strike and up dip, of slip or of stress.
+struct InPlane {
+  double along, up;
+};
+InPlane direction(const SourcePoint& p) {
+  const double rake = p.rake * std::numbers::pi / 180;
+  return {std::cos(rake), std::sin(rake)};
+}
+
+/// Sums the stress of all subfaults at subfault (column, row). Rows are counted downwards.
+InPlane traction_at(const SourceSegment& s, const std::vector<Kernel>& kernels, const std::vector<InPlane>& slips,
+                    std::size_t column, std::size_t row) {
+  InPlane sum{0, 0};
+  for (std::size_t j = 0; j < s.down_dip; ++j)
+    for (std::size_t i = 0; i < s.along_strike; ++i) {
+      const InPlane& slip = slips[j * s.along_strike + i];
+      const std::size_t across = i > column ? i - column : column - i, down = j > row ? j - row : row - j;
+      const Kernel& k = kernels[down * s.along_strike + across];
+      const double sign = (i > column) == (j < row) ? 1 : -1;  // the cross term is odd in x and in y
+      sum.along += k.along * slip.along + sign * k.cross * slip.up;
+      sum.up += k.up * slip.up + sign * k.cross * slip.along;
+    }
+  return sum;
+}
+
+}  // namespace
+
+double shear_modulus_of(const SourceSegment& segment) {
+  double slip = 0, weighted = 0, plain = 0;
+  for (const SourcePoint& p : segment.points) {
+    slip += std::fabs(p.slip);
+    weighted += std::fabs(p.slip) * p.shear_modulus();
+    plain += p.shear_modulus() / static_cast<double>(segment.points.size());
+  }
+  return slip > 0 ? weighted / slip : plain;
+}
+
+std::vector<double> static_stress_drop(const SourceSegment& s, double poisson_ratio) {
+  std::vector<Kernel> kernels;
+  for (std::size_t j = 0; j < s.down_dip; ++j)
+    for (std::size_t i = 0; i < s.along_strike; ++i)
+      kernels.push_back(kernel(static_cast<double>(i) * s.cell_length, static_cast<double>(j) * s.cell_width,
+                               s.cell_length, s.cell_width, poisson_ratio));
+  std::vector<InPlane> slips;
+  for (const SourcePoint& p : s.points) {
+    const InPlane d = direction(p);
+    slips.push_back({p.slip * d.along, p.slip * d.up});
+  }
+  const double unit = shear_modulus_of(s) / (4 * std::numbers::pi);
+  std::vector<double> drops;
+  for (std::size_t j = 0; j < s.down_dip; ++j)
+    for (std::size_t i = 0; i < s.along_strike; ++i) {
+      const InPlane t = traction_at(s, kernels, slips, i, j), d = direction(s.points[j * s.along_strike + i]);
+      drops.push_back(-unit * (t.along * d.along + t.up * d.up));
+    }
+  return drops;
 }
 
 }  // namespace slipfront::finite_fault

@@ -2,6 +2,7 @@
 /// \file
 /// Turns a finite-fault model into a kinematic source: rupture times, rise times and slip-rate functions on planar
 /// segments. The moment is that of the model.
+/// Static stress drop on a planar segment from its slip.
 
 #include <cstddef>
 #include <optional>
@@ -71,5 +72,20 @@ FiniteSource finite_source(const catalogue::FaultModel& model, const medium::Def
 /// The slip rate is that of the pulse at x = 0, W(0, t), from t = 0 to the rise time, where the damping number is
 /// `source.damping_number`. It is multiplied by the factor that gives the slip.
 std::vector<double> slip_rates(const FiniteSource& source, const SourcePoint& point);
+
+/// Stress drop in Pa at the centre of each subfault, in the direction of its rake, in the order of the points. Negative
+/// values are increases of stress.
+///
+/// The medium is a homogeneous full space with the shear modulus `shear_modulus_of(segment)`. Each subfault slips
+/// uniformly. In wave numbers the change of the shear stress i by slip D_j is (Andrews 1980)
+///
+///     -(mu / 2) (k delta_ij + nu / (1 - nu) k_i k_j / k) D_j
+///
+/// We sum its exact integral over every rectangle instead of a Fourier series, so nothing is periodic. The free surface
+/// and other segments are left out.
+std::vector<double> static_stress_drop(const SourceSegment& segment, double poisson_ratio);
+
+/// Mean shear modulus of a segment in Pa, weighted by slip. If nothing slips, all subfaults count equally.
+double shear_modulus_of(const SourceSegment& segment);
 
 }  // namespace slipfront::finite_fault

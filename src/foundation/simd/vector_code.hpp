@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 // g++ gets a version for each level of x86-64, chosen at run time. clang 14 knows neither that nor these pragmas: its
 // build runs the loops as they come.
 #if defined(__GNUC__) && !defined(__clang__)
@@ -13,3 +16,27 @@
 #else
 #define SLIPFRONT_CLONES
 #endif
+
+/// Sums of arrays as vector code, for time integrators.
+namespace slipfront {
+
+/// sum = c_0 x_0 + c_1 x_1 + ...
+void combine3(std::size_t size, std::array<double, 3> c, std::array<const double*, 3> x, double* sum);
+void combine5(std::size_t size, std::array<double, 5> c, std::array<const double*, 5> x, double* sum);
+
+/// Sum or extremum of value(i) over an array, by `join`, from `start`: in eight lanes, in the same order on every
+/// machine.
+template <class Value, class Join>
+inline double reduce(std::size_t size, double start, Value value, Join join) {
+  constexpr std::size_t lanes = 8;
+  double part[lanes];
+  for (double& p : part) p = start;
+  std::size_t i = 0;
+  for (; i + lanes <= size; i += lanes)
+    for (std::size_t j = 0; j < lanes; ++j) part[j] = join(part[j], value(i + j));
+  for (; i < size; ++i) part[0] = join(part[0], value(i));
+  for (std::size_t j = 1; j < lanes; ++j) part[0] = join(part[0], part[j]);
+  return part[0];
+}
+
+}  // namespace slipfront

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "foundation/text/trimmed.hpp"
+#include "foundation/text/characters.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront {

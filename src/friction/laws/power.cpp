@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <numbers>
 
-#include "foundation/math/lagrange.hpp"
+#include "foundation/math/interpolation.hpp"
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/vector_code.hpp"
 #include "friction/train_means/tabulated_average.hpp"
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::friction {

@@ -6,9 +6,9 @@
 
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/vector_code.hpp"
-#include "friction/laws/in_parts.hpp"
+#include "friction/laws/force_of_speed.hpp"
 #include "friction/laws/rate_and_state_loops.hpp"
-#include "friction/state/contact_age.hpp"
+#include "friction/state/contacts.hpp"
 #include "friction/train_means/asinh_average.hpp"
 
 namespace slipfront::friction {

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "friction/train_means/asinh_force.hpp"
+#include "friction/train_means/asinh_average.hpp"
 
 /// The force f = a asinh(w G) at many positions, as vector code chosen at run time.
 namespace slipfront::friction {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/friction/law.hpp"
 #include "slipfront/train/train.hpp"
 

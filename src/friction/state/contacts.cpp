@@ -1,11 +1,81 @@
 #include "friction/state/contacts.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/vector_code.hpp"
 
 namespace slipfront::friction {
+namespace {
+
+constexpr std::size_t together = 64;
+constexpr double short_step = 1.0 / 16;  ///< limit of the slip over D_c in age_little
+
+/// Advances theta, to 1e-17, at positions that slip less than short_step. The others stay unchanged. Returns whether
+/// there are no others.
+SLIPFRONT_CLONES bool age_little(std::size_t size, const double* velocity, double per_D, double time, double* theta) {
+  constexpr double c[] = {1.0,        -1.0 / 2,   1.0 / 6,      -1.0 / 24,    1.0 / 120,
+                          -1.0 / 720, 1.0 / 5040, -1.0 / 40320, 1.0 / 362880, -1.0 / 3628800};
+  std::size_t others = 0;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) {
+    const double p = std::fabs(velocity[j]) * per_D;
+    const bool little = p < short_step;
+    theta[j] += little ? polynomial(c, little ? p : 0.0) * (time - p * theta[j]) : 0.0;
+    others += little ? 0u : 1u;
+  }
+  return others == 0;
+}
+
+SLIPFRONT_CLONES void age_much(std::size_t size, const double* velocity, double per_D, double time, double* theta) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) {
+    const double p = std::fabs(velocity[j]) * per_D;
+    const double decay = exp_branch_free(-at_most(p, 650.0));
+    theta[j] = p < short_step ? theta[j] : theta[j] * decay + time * ((1 - decay) / p);
+  }
+}
+
+void advance_by_ageing(double D, std::size_t size, const double* velocity, double time, double* theta) {
+  const double per_D = time / D;
+  for (std::size_t j = 0; j < size; j += together) {
+    const std::size_t some = std::min(together, size - j);
+    if (!age_little(some, velocity + j, per_D, time, theta + j)) age_much(some, velocity + j, per_D, time, theta + j);
+  }
+}
+
+SLIPFRONT_CLONES void advance_by_slip(double D, std::size_t size, const double* mean, const double* typical,
+                                      double time, double* theta) {
+  const double per_D = 1 / D;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) {
+    const double p = std::fabs(mean[j]) * time * per_D, x = std::fabs(typical[j]) * theta[j] * per_D;
+    const double change = log_branch_free(at_least(x, 1e-300)) * expm1_branch_free(-at_most(p, 650.0));
+    theta[j] *= p > 0 && x > 0 ? exp_branch_free(at_most(at_least(change, -650.0), 650.0)) : 1.0;
+  }
+}
+
+}  // namespace
+
+void ContactAge::advance(const Slip& slip, double time, std::span<double> theta) const {
+  const double speed = std::fabs(slip.mean), typical = std::fabs(slip.typical), passed = speed * time / D_;
+  if (kind_ == Kind::slip) {
+    if (speed > 0 && typical > 0)
+      theta[0] *= std::exp(std::log(typical * theta[0] / D_) * std::expm1(-speed * time / D_));
+    return;
+  }
+  const double gained = passed > 1e-12 ? -std::expm1(-passed) / passed : 1 - passed / 2;
+  theta[0] = theta[0] * std::exp(-passed) + time * gained;
+}
+
+void ContactAge::advance_all(std::size_t size, const Slips& slips, double time, std::size_t, double* theta) const {
+  if (kind_ == Kind::slip)
+    advance_by_slip(D_, size, slips.mean, slips.typical, time, theta);
+  else
+    advance_by_ageing(D_, size, slips.mean, time, theta);
+}
+
 namespace {
 
 constexpr double tiny = 1e-300;  ///< theta below it counts as it

@@ -6,7 +6,7 @@
 
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/vector_code.hpp"
-#include "friction/train_means/phase_nodes.hpp"
+#include "friction/train_means/mean_over_train.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction {

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <vector>
 
-#include "friction/train_means/chebyshev_patch.hpp"
+#include "friction/train_means/chebyshev.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "foundation/math/roots.hpp"
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/inference/posterior.hpp"
 #include "slipfront/rupture/relations.hpp"
 

@@ -3,7 +3,7 @@
 /// The pulse that an observer sees: its state at a given velocity of the observed front and a given damping number.
 
 #include "slipfront/catalogue/observation.hpp"
-#include "slipfront/friction_ratio/front.hpp"
+#include "slipfront/friction_ratio/table.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace slipfront::inference {

@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "inference/sampling/cells.hpp"
 #include "inference/sampling/evidence.hpp"
 #include "inference/sampling/pulse_state.hpp"
 #include "inference/sampling/sobol.hpp"

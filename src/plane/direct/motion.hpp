@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "foundation/ranks.hpp"
-#include "plane/direct/loads.hpp"
 #include "plane/direct/rows.hpp"
-#include "plane/direct/site_friction.hpp"
 #include "plane/direct/sites.hpp"
 
 namespace slipfront::plane {

@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "foundation/simd/elementary.hpp"
-#include "foundation/simd/reduce.hpp"
 #include "foundation/simd/vector_code.hpp"
 
 namespace slipfront::plane {

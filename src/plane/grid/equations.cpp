@@ -9,7 +9,7 @@
 #include "modulation/equations.hpp"
 #include "modulation/solve_states.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 
 namespace slipfront::plane {
 

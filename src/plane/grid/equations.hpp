@@ -12,7 +12,6 @@
 
 #include "modulation/solve_states.hpp"
 #include "plane/grid/cells.hpp"
-#include "plane/grid/walls.hpp"
 
 namespace slipfront::plane {
 

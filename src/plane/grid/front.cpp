@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::plane {

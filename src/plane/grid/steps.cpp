@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "foundation/math/ssprk3.hpp"
+#include "foundation/math/time_steps.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 

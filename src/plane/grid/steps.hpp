@@ -11,7 +11,7 @@
 
 #include "plane/grid/equations.hpp"
 #include "plane/grid/front.hpp"
-#include "pulse/friction/friction_solve.hpp"
+#include "pulse/friction/cell_friction.hpp"
 
 namespace slipfront::plane {
 

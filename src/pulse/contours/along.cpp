@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "foundation/math/constants.hpp"
-#include "foundation/math/parabola.hpp"
+#include "foundation/math/interpolation.hpp"
 #include "modulation/equations.hpp"
 #include "pulse/contours/many_trains.hpp"
 #include "slipfront/train/train.hpp"

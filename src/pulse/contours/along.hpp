@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "pulse/contours/edges.hpp"
+#include "pulse/contours/contour.hpp"
 #include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::pulse {

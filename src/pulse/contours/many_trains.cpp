@@ -7,7 +7,7 @@
 
 #include "foundation/text/digits.hpp"
 #include "pulse/contours/along.hpp"
-#include "pulse/contours/edges.hpp"
+#include "pulse/contours/contour.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {

@@ -13,9 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "foundation/math/step_control.hpp"
+#include "foundation/math/time_steps.hpp"
 #include "pulse/contours/contour.hpp"
-#include "pulse/contours/edges.hpp"
 #include "pulse/motion.hpp"
 
 namespace slipfront::pulse {

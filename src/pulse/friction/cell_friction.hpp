@@ -3,13 +3,86 @@
 #include <cstddef>
 #include <vector>
 
-#include "pulse/friction/friction_solve.hpp"
 #include "pulse/grid/cells.hpp"
-#include "pulse/grid/state_grid.hpp"
 #include "pulse/space/cell_states.hpp"
+#include "slipfront/friction/friction.hpp"
 #include "slipfront/pulse/problem.hpp"
 
 namespace slipfront::pulse {
+
+/// A train at a given contact ratio. Friction takes momentum from it while its spacing is constant. Momenta are per
+/// dislocation.
+struct SlowedTrain {
+  const friction::Friction& friction;
+  double spacing;
+  double contact;
+  friction::LocalState state_values;  ///< state variables at the positions that the train covers
+  double psi_guess;                   ///< initial guess of psi
+
+  struct Result {
+    double momentum, velocity;
+    double typical_speed;  ///< a sinh |phi| e^psi, whose logarithm is the mean of ln |w| over slip (docs/friction.md)
+  };
+  /// Returns the train after friction has acted for `time` on the momentum `free`. The momentum M solves the implicit
+  /// equation M + time 2 pi <f>(M) = free, and is 0 if friction holds the train. The law's force must not fall with the
+  /// slip velocity at constant state.
+  Result after(double free, double time) const;
+};
+
+/// Solves the equation of SlowedTrain for many trains at once, by Newton's method in ln M. If the method fails, or if a
+/// train is outside the range of the vector code, SlowedTrain solves it.
+class SlowedTrains {
+ public:
+  /// A train is at rest if friction leaves less than this fraction of its frictionless momentum.
+  static constexpr double at_rest_below = 1e-12;
+
+  /// Reserves space for `most` trains.
+  SlowedTrains(const friction::Friction& friction, std::size_t most);
+
+  struct Train {
+    std::size_t cell;  ///< index at which its results are stored
+    double spacing;    ///< in local units
+    double contact;
+    const double* state_values;
+    double free;     ///< momentum without friction, > 0
+    double guess;    ///< initial guess of the momentum, > 0
+    double s_guess;  ///< initial guess of tanh psi
+  };
+  struct Results {  ///< arrays by cell
+    double *momentum, *velocity, *typical_speed;
+    double *force, *slope;  ///< mean of f, and its derivative with respect to ln(momentum)
+    double* s;              ///< tanh psi
+  };
+  /// Adds a train to those that the next `solve` treats.
+  void add(const Train& train) {
+    const std::size_t i = count_++;
+    cell_[i] = train.cell;
+    contact_[i] = train.contact;
+    free_[i] = train.free;
+    momentum_[i] = train.guess;
+    states_.spacing[i] = train.spacing;
+    states_.s[i] = train.s_guess;
+    for (std::size_t v = 0; v < variables_; ++v) state_values_[i * variables_ + v] = train.state_values[v];
+  }
+  /// Lets friction act for `time` on all added trains, and removes them.
+  void solve(double time, const Results& results);
+  /// Removes all added trains. After an exception, `solve` leaves those that it has not solved.
+  void clear() { count_ = 0; }
+
+ private:
+  void evaluate();
+  void copy(std::size_t from, std::size_t to);
+  SlowedTrain::Result solve_alone(std::size_t i, double time) const;
+
+  const friction::Friction& friction_;
+  std::size_t variables_;
+  // Values of the trains that are not solved yet.
+  std::size_t count_ = 0;
+  CellStates states_;  ///< its spacings are in local units
+  std::vector<std::size_t> cell_;
+  std::vector<double> contact_, state_values_, free_, momentum_, fastest_, force_, slope_;
+  std::vector<double> next_, velocity_, typical_, next_force_, last_;  ///< values after one Newton step
+};
 
 /// Computes friction on the cells over one step, with the state variables in the middle of the step. The arrays are
 /// reused from step to step.

@@ -1,15 +1,77 @@
 #include "pulse/grid/layout.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "foundation/math/constants.hpp"
 #include "foundation/math/roots.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
+
+using std::numbers::pi;
+
+InitialGrid::InitialGrid(const Problem& problem, const Cells& at_start, FreeEdges free_edges)
+    : faces{at_start.left_edge()}, charges{0}, free(free_edges), stress(problem.stress) {
+  for (std::size_t i = 0; i < at_start.size(); ++i) {
+    faces.push_back(faces.back() + at_start.width(i));
+    charges.push_back(charges.back() + at_start.charge[i]);
+  }
+  const auto differs = [&](double x) { return problem.contact(x) != problem.contact(faces.front()); };
+  contact_varies = problem.contact && std::any_of(faces.begin(), faces.end(), differs);
+}
+
+double InitialGrid::position_of(double charge) const {
+  const double rounding = 1e-12 * (charges.back() - charges.front());
+  // A dislocation that entered through an end comes from a train with the stress of that end.
+  if (charge < charges.front() - rounding)
+    return faces.front() + (charge - charges.front()) * 2 * pi / stress(faces.front());
+  if (charge > charges.back() + rounding)
+    return faces.back() + (charge - charges.back()) * 2 * pi / stress(faces.back());
+  const std::size_t i = interval(charges, charge);
+  return charge - charges[i] < charges[i + 1] - charge ? faces[i] : faces[i + 1];
+}
+
+/// Adds up the whole cells, and integrates the stress over the parts of cells at either end.
+double InitialGrid::charge_between(double from, double to) const {
+  if (from > to) return -charge_between(to, from);
+  const auto beyond = [&](double a, double b, double end) {
+    const bool is_free = end == faces.front() ? free.left : free.right;
+    return is_free || !(b > a) ? 0 : (b - a) * stress(end) / (2 * pi);
+  };
+  double sum =
+      beyond(from, std::min(to, faces.front()), faces.front()) + beyond(std::max(from, faces.back()), to, faces.back());
+  from = std::clamp(from, faces.front(), faces.back());
+  to = std::clamp(to, faces.front(), faces.back());
+  const std::size_t first = interval(faces, from), last = interval(faces, to);
+  const auto part = [&](double a, double b) { return integral(stress, a, b) / (2 * pi); };
+  if (first == last) return sum + part(from, to);
+  sum += part(from, faces[first + 1]) + part(faces[last], to);
+  for (std::size_t i = first + 1; i < last; ++i) sum += charges[i + 1] - charges[i];
+  return sum;
+}
+
+bool InitialGrid::fits(const Cells& cells, std::size_t state_values) const {
+  const std::size_t n = cells.charge.size();
+  const double all = charges.back();
+  double left = -cells.entered_left;
+  bool fits = std::isfinite(left) && std::isfinite(cells.entered_right) && n > 0 && cells.s.size() == n &&
+              (cells.face_momentum.empty() || cells.face_momentum.size() == n + 1) &&
+              cells.unknowns.size() == Values::size(n) && cells.state.size() == state_values && cells.charge[0] > 0 &&
+              cells.charge[n - 1] > 0;
+  for (std::size_t i = 0; i < n && fits; ++i) {
+    left += cells.charge[i];
+    const auto near = std::lower_bound(charges.begin(), charges.end(), left - 1e-9 * all);
+    const bool outside = left < -1e-9 * all || left > (1 + 1e-9) * all;  // entered through an end
+    fits = cells.charge[i] >= 0 && (outside || (near != charges.end() && *near <= left + 1e-9 * all));
+  }
+  return fits && std::fabs(left - all - cells.entered_right) <= 1e-9 * (all + std::fabs(cells.entered_right));
+}
 
 double integral(const std::function<double(double)>& f, double a, double b) {
   constexpr double node[5] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244, 0.8650633666889845,
@@ -118,10 +180,6 @@ void fill(std::vector<double>& faces, const Monitor& monitor, double from, doubl
         i == cells ? to : monitor.x_at(a + (b - a) * graded(static_cast<double>(i) / cells, left_free, right_free)));
 }
 
-}  // namespace
-
-namespace {
-
 /// The ends of a stretch that has stress at the sampled points.
 struct Stressed {
   double from, to;
@@ -200,6 +258,65 @@ Layout lay_cells(const std::function<double(double)>& stress, double left, doubl
     layout.charge.push_back(empty(a + (b - a) / 2) ? 0 : integral(stress, a, b) / (2 * pi));
   }
   return layout;
+}
+
+using std::numbers::pi;
+
+namespace {
+
+/// A contact that jumps would be a wall to some cells and nothing to others: there must be a slope to climb.
+void refuse_jumps(const std::function<double(double)>& contact, double left, double right) {
+  constexpr int samples = 4096;
+  const double h = (right - left) / samples;
+  for (int i = 0; i < samples; ++i) {
+    double a = left + i * h, b = a + h, at_a = contact(a), at_b = contact(b);
+    const double whole = std::fabs(at_b - at_a), from = at_a, to = at_b;
+    if (whole < 1e-3 * at_a) continue;
+    while (b - a > 1e-6 * h) {  // the half that changes more
+      const double middle = (a + b) / 2, at_middle = contact(middle);
+      const bool first = std::fabs(at_middle - at_a) > std::fabs(at_b - at_middle);
+      (first ? b : a) = middle;
+      (first ? at_b : at_a) = at_middle;
+    }
+    if (std::fabs(at_b - at_a) > whole / 2)
+      throw InputError({.key = "contact",
+                        .problem = "jumps from " + digits(from) + " to " + digits(to) + " at x = " + digits(a),
+                        .allowed = "a continuous profile, such as tanh of a width of some cells"});
+  }
+}
+
+}  // namespace
+
+Start start_of(const Problem& problem) {
+  assert(problem.left < problem.right && problem.cells >= 4 && problem.tolerance > 0);
+  assert(problem.friction.defined_by(problem.friction.closure()));
+  if (problem.contact) refuse_jumps(problem.contact, problem.left, problem.right);
+  const Layout layout = lay_cells(
+      problem.stress, problem.left, problem.right, problem.cells, problem.corner,
+      {!problem.periodic && problem.left_end == End::free, !problem.periodic && problem.right_end == End::free});
+  if (problem.periodic && (layout.left_free || layout.right_free))
+    throw InputError({.key = "periodic",
+                      .problem = "there is no stress at an end of the domain",
+                      .allowed = "a ring that is stressed where its ends meet"});
+  Cells cells;
+  cells.charge = layout.charge;
+  const std::size_t n = layout.charge.size();
+  cells.unknowns.assign(Values::size(n), 0.0);
+  cells.s.assign(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    cells.width(i) = layout.faces[i + 1] - layout.faces[i];
+    if (cells.charge[i] == 0) continue;
+    const double a = problem.contact ? problem.contact((layout.faces[i] + layout.faces[i + 1]) / 2) : 1;
+    const double local = 2 * pi * cells.charge[i] / (a * cells.width(i));
+    if (!(local >= train::smallest_stress))
+      throw InputError(
+          {.key = problem.contact ? "contact" : "stress",
+           .problem = "stress over contact ratio is " + digits(local) + " at x = " + digits(layout.faces[i]),
+           .allowed = "at least 0.0045 where there is stress: dislocations farther apart have no psi"});
+    cells.s[i] = std::tanh(train::psi_of_stress(local));
+  }
+  cells.left_edge() = layout.faces.front();
+  return {cells, {layout.left_free, layout.right_free}};
 }
 
 }  // namespace slipfront::pulse

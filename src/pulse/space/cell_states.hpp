@@ -1,10 +1,54 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
-#include "pulse/space/block.hpp"
+#include "pulse/grid/cells.hpp"
+#include "pulse/grid/ends.hpp"
+#include "slipfront/friction/friction.hpp"
+#include "slipfront/pulse/problem.hpp"
 
 namespace slipfront::pulse {
+
+/// Boundary condition at an end of a row of cells.
+enum class Edge {
+  free,       ///< no dislocations: no pressure, and the edge moves
+  continued,  ///< the train in the last cell continues
+  wall,       ///< a wall that no dislocation passes; the last dislocation may move away from it
+  ring,       ///< the other end of the row
+};
+
+/// Returns Edge::wall if the end of a train, at x, touches the wall, and Edge::free if the train has moved away from
+/// it. `width` is that of the last cell.
+inline Edge edge_at_wall(double x, double wall, double width) {
+  return std::fabs(x - wall) <= 1e-13 * std::fabs(wall) + 1e-6 * width ? Edge::wall : Edge::free;
+}
+
+/// A range of neighbouring cells or faces. It does not include `end`.
+struct CellRange {
+  std::size_t begin, end;
+  bool empty() const { return begin >= end; }
+};
+
+/// A row of cells with dislocations. Between two blocks is a gap, one cell without dislocations, whose faces are free
+/// edges.
+struct Block {
+  std::size_t begin, end;  ///< cells
+  Edge left, right;
+};
+/// The cells that a block and a stretch of cells have in common.
+inline CellRange common(const Block& block, CellRange stretch) {
+  const std::size_t begin = std::max(block.begin, stretch.begin);
+  return {begin, std::max(begin, std::min(block.end, stretch.end))};
+}
+std::vector<Block> blocks_of(const std::vector<double>& charge, Edge left, Edge right);
+
+/// Finds x at the middle of each cell in s, from the faces: sixth order inside a block, fourth and second order in its
+/// last cells. The result is within the middle half of the cell.
+void middles(const std::vector<Block>& blocks, const std::vector<double>& faces, std::vector<double>& centres);
 
 /// The trains at the cell centres: spacing and momentum of one dislocation, and the state that they determine. With a
 /// contact ratio a(x), all are in the local units a x, a t.
@@ -28,5 +72,22 @@ struct CellStates {
   void solve_one(std::size_t i);
   std::vector<double> solved_;
 };
+
+/// The parts of a problem on which the equations in space depend.
+struct Setup {
+  std::vector<double> charge;  ///< dislocations in each cell, 0 in a gap
+  Edge left = Edge::continued, right = Edge::continued;
+  double left_wall = 0, right_wall = 0;  ///< x, where the edges are walls
+  friction::Friction friction;
+  std::function<double(double, double)> forcing;  ///< null: none
+  std::function<double(double)> contact;          ///< a(x); null: 1
+  bool friction_apart = false;                    ///< the rates of Semidiscrete are those without friction
+};
+Setup setup_of(const Problem& problem, const Cells& cells, FreeEdges free);
+
+/// Whether friction damps slow trains at any rate, but does not hold them, as powers of the velocity below 1 do.
+bool is_steep(const friction::Friction& friction);
+/// Whether steps take friction cell by cell: where it has state variables, or is steep at rest.
+bool takes_friction_by_cells(const Problem& problem);
 
 }  // namespace slipfront::pulse

@@ -6,7 +6,6 @@
 #include "foundation/math/weno.hpp"
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/elliptic_fit.hpp"
-#include "foundation/simd/reduce.hpp"
 #include "foundation/simd/vector_code.hpp"
 #include "modulation/equations.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "pulse/space/block.hpp"
+#include "pulse/space/cell_states.hpp"
 
 /// Loops over cells and faces that take most of the time of a pulse run. The vector code (AVX-512, AVX2 or plain) is
 /// chosen at run time.

@@ -10,7 +10,7 @@
 #include "modulation/equations.hpp"
 #include "pulse/space/kernels.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 
 namespace slipfront::pulse {
 

@@ -4,12 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "pulse/grid/values.hpp"
-#include "pulse/space/block.hpp"
+#include "pulse/grid/cells.hpp"
 #include "pulse/space/cell_states.hpp"
-#include "pulse/space/setup.hpp"
 #include "slipfront/friction/friction.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {

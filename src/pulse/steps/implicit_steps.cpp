@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "foundation/text/digits.hpp"
-#include "pulse/steps/step_limits.hpp"
+#include "pulse/steps/measures.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {

@@ -2,11 +2,10 @@
 
 #include <vector>
 
-#include "foundation/math/step_control.hpp"
-#include "pulse/staggered/equations.hpp"
+#include "foundation/math/time_steps.hpp"
+#include "pulse/staggered/staggered.hpp"
 #include "pulse/steps/measures.hpp"
-#include "pulse/time/extrapolated_euler.hpp"
-#include "pulse/time/rodas4.hpp"
+#include "pulse/time/integrators.hpp"
 
 namespace slipfront::pulse {
 

@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "pulse/grid/state_grid.hpp"
-#include "pulse/staggered/equations.hpp"
+#include "pulse/grid/cells.hpp"
+#include "pulse/staggered/staggered.hpp"
 #include "pulse/steps/explicit_steps.hpp"
 #include "pulse/steps/implicit_steps.hpp"
-#include "pulse/steps/split_steps.hpp"
 
 namespace slipfront::pulse {
 

@@ -3,7 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "pulse/staggered/equations.hpp"
+#include "pulse/grid/layout.hpp"
+#include "pulse/staggered/staggered.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
@@ -33,5 +34,9 @@ State state_at(const View& view, double x);
 train::Averages averages_of(const View& view, const State& state, double x);
 /// Number of dislocations left of x.
 double charge_left_of(const View& view, double x);
+
+/// Slip at x since t = 0: 2 pi times the dislocations that have passed it, the integral of the initial stress from
+/// where the dislocation now at x began. This is no difference of sums, so that a small slip has small errors.
+double slip_at(const InitialGrid& initial, const Cells& cells, const View& view, double x);
 
 }  // namespace slipfront::pulse

@@ -1,19 +1,43 @@
 #pragma once
 /// \file
+/// The variables in the file of a catalogue that are not columns of the events.
 /// The groups in the file of a catalogue that hold draws: posterior, prior, posterior_predictive, observed_data and
 /// sample_stats, in the layout of ArviZ (InferenceData).
+/// Writes events as CSV, in full precision and with the names of `slipfront event --json`. A quantity that cannot be
+/// identified has an empty cell.
 
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "catalogue/population.hpp"
+#include "foundation/math/constants.hpp"
 #include "record/netcdf/netcdf.hpp"
 #include "results/columns.hpp"
 #include "results/evaluate.hpp"
+
+namespace slipfront::record::event_layout {
+
+inline constexpr const char* state = "done";
+
+/// A variable of numbers with its values. `about.get` is not used.
+struct Variable {
+  results::NumberColumn about;
+  std::vector<int> dimensions;
+  std::vector<double> values;
+};
+
+/// The variables of the decades of rupture velocity, with quantiles over the dimension `quantile` of the file. It also
+/// has the closed form over these decades, on a separate dimension.
+std::vector<Variable> population_variables(netcdf::Writer& file, const std::vector<catalogue::Decade>& population,
+                                           int quantile);
+
+}  // namespace slipfront::record::event_layout
 
 namespace slipfront::record {
 
@@ -51,5 +75,13 @@ class EventGroups {
   std::size_t draws_;
   std::deque<Group> groups_;
 };
+
+/// The line of titles, and the line of an event. With `with_pulse` they also have the columns that summarise a pulse
+/// through a finite-fault model.
+std::string event_csv_head(bool with_pulse);
+std::string event_csv_row(const results::EventResult& result, bool with_pulse);
+
+/// Writes a file of these lines completely or not at all. \throws FileError with path and reason.
+void write_events_csv(const std::string& path, std::span<const results::EventResult> results, bool with_pulse);
 
 }  // namespace slipfront::record

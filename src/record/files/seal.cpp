@@ -2,8 +2,7 @@
 
 #include <cstdint>
 
-#include "record/files/fnv.hpp"
-#include "record/files/text_file.hpp"
+#include "record/files/whole_file.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::record {

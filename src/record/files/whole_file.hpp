@@ -1,11 +1,14 @@
 #pragma once
 /// \file
 /// Writes a file completely or not at all.
+/// Reads and writes whole files.
+/// The output file of a run, and the file that holds an unfinished result.
 
 #include <functional>
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace slipfront::record {
 
@@ -26,5 +29,54 @@ void require_replaceable(const std::string& path);
 /// Removes the part files that killed processes left for `path`, like replace_file. \throws FileError like
 /// require_replaceable.
 void remove_leftovers(const std::string& path);
+
+/// Reads a file. \throws FileError with path and reason if the file is missing, a directory, not permitted or not
+/// readable; if it is a device or pipe of more than 1 GB, which may never end; and if it is large and no text.
+std::string read_text(const std::string& path);
+
+/// Like `read_text`, but rejects everything except regular files, because a device may never end.
+std::string read_regular(const std::string& path);
+
+/// Writes a file completely or not at all. \throws FileError with path and reason.
+void write_text(const std::string& path, const std::string& text);
+
+/// Whether any thread is writing a file now. A signal handler may call this.
+bool is_writing() noexcept;
+
+/// Reads all of standard input. \throws FileError.
+std::string read_standard_input();
+
+/// The output of a run. An existing output file is not replaced before the run has reached its end. Until then, the
+/// result goes to OUT.unfinished.nc in the same folder.
+class Output {
+ public:
+  Output() = default;  ///< no output
+  /// An empty `path` means no output. `resumed_from` is the file from which the run resumes, or empty; the run may
+  /// write over it, because nothing is lost. \throws FileError if `path` cannot be written.
+  Output(std::string path, const std::string& resumed_from);
+
+  bool wanted() const { return !path_.empty(); }
+  bool replaces() const { return !unfinished_.empty(); }  ///< the output file exists already
+  /// The file for an unfinished result, and the file for a finished one.
+  const std::string& unfinished() const { return unfinished_.empty() ? path_ : unfinished_; }
+  const std::string& finished() const { return path_; }
+  /// The option that resumes an unfinished result: "--resume FILE".
+  std::string how_to_resume() const;
+  /// Removes the unfinished result. Call it after the finished result has been written.
+  void clear() const;
+
+ private:
+  std::string path_, unfinished_;
+};
+
+/// \throws InputError unless the name `path` ends in .nc. The user gave it with `option`.
+void require_netcdf_name(const std::string& path, const std::string& option);
+
+/// \throws InputError if writing `output` would destroy one of the files that a command reads: the same file, under the
+/// same name, another spelling or a link. Empty names are no files.
+void require_other_file(const std::string& output, const std::vector<std::string>& inputs);
+
+/// \throws FileError if the disk of `path` has fewer than `bytes` free bytes. Does nothing if `path` is empty.
+void require_disk_space(const std::string& path, double bytes);
 
 }  // namespace slipfront::record

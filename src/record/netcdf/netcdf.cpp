@@ -9,8 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "foundation/text/printable.hpp"
-#include "record/files/fnv.hpp"
+#include "foundation/text/characters.hpp"
 #include "record/files/seal.hpp"
 #include "record/files/whole_file.hpp"
 #include "slipfront/error.hpp"

@@ -1,21 +1,103 @@
 #include "record/runs/arrays.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "foundation/machine.hpp"
 #include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
-#include "record/runs/cf.hpp"
-#include "record/runs/run_layout.hpp"
-#include "record/runs/run_variables.hpp"
+#include "record/runs/run_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/output/dislocation_paths.hpp"
 #include "slipfront/output/quantities.hpp"
+#include "slipfront/plane/quantities.hpp"
+#include "slipfront/plane/source_parameters.hpp"
+
+namespace slipfront::record::cf {
+namespace {
+
+using netcdf::Writer;
+
+constexpr std::string_view paper = "Gershenzon, Bambakidis and Skinner (2015)";
+constexpr std::string_view paper_title =
+    "How does dissipation affect the transition from static to dynamic macroscopic friction?";
+
+void describe(Writer& file, int variable, const Description& about, const RunMetadata& metadata) {
+  if (!metadata.units || about.dimensional_unit.empty()) {
+    file.attribute(variable, "long_name", about.long_name);
+    file.attribute(variable, "units", "1");
+    file.attribute(variable, "dimensional_unit", about.dimensional_unit);
+  } else {
+    const medium::UnitInSi unit = metadata.units->of(about.dimensional_unit);
+    file.attribute(variable, "long_name", long_name_of(about, unit));
+    file.attribute(variable, "units", unit.name);
+    file.attribute(variable, "scale_factor", unit.value);
+    file.attribute(variable, "unit_of_model", about.dimensional_unit);
+  }
+  file.attribute(variable, "references", reference_of(about));
+}
+
+std::string comment_of(const RunMetadata& metadata) {
+  if (!metadata.units)
+    return "All values are dimensionless. Multiply them by dimensional_unit, where A is the contact ratio, b the "
+           "asperity spacing, c the speed of strain waves, mu the shear modulus and nu the Poisson ratio.";
+  return "All values are in SI units, by the constants in the attribute medium. A file stores them in the unit of the "
+         "model, with a scale_factor (CF, section 8.1) that readers of NetCDF apply.";
+}
+
+}  // namespace
+
+int reals(Writer& file, const Description& about, const std::vector<int>& dimensions, const RunMetadata& metadata) {
+  const int variable = file.reals(std::string(about.name), dimensions);
+  describe(file, variable, about, metadata);
+  return variable;
+}
+
+void describe_file(Writer& file, const RunMetadata& metadata, const char* format, bool finished) {
+  for (const auto& [name, value] : file_attributes(metadata, format))
+    file.attribute(Writer::global, name, clean_text(value, netcdf::longest_text));
+  file.attribute(Writer::global, "finished", finished ? 1 : 0);
+}
+
+}  // namespace slipfront::record::cf
 
 namespace slipfront::record {
+
+std::string long_name_of(const Description& about, const medium::UnitInSi& unit) {
+  return std::string(about.long_name) + (unit.between_faces ? ", between the faces" : "");
+}
+
+std::string reference_of(const Description& about) {
+  return std::string(cf::paper) + ", " + std::string(about.reference);
+}
+
+std::vector<std::pair<std::string, std::string>> file_attributes(const RunMetadata& metadata,
+                                                                 const std::string& format) {
+  std::string warnings;
+  for (const std::string& warning : metadata.warnings) warnings += (warnings.empty() ? "" : "\n") + warning;
+  std::vector<std::pair<std::string, std::string>> all = {
+      {"Conventions", "CF-1.10"},
+      {"title", metadata.title},
+      {"source", "slipfront " + metadata.version},
+      {"history", metadata.command_line},
+      {"references", std::string(cf::paper) + ", " + std::string(cf::paper_title)},
+      {"comment", cf::comment_of(metadata)},
+      {"version", metadata.version},
+      {"warnings", warnings},
+      {"scenario", metadata.scenario_text},
+      {"slipfront_format", format},
+  };
+  if (metadata.units) {
+    all.emplace_back("unit_system", "SI");
+    all.emplace_back("medium", metadata.units->in_words());
+  }
+  return all;
+}
+
 namespace {
 
 using Dimensions = std::vector<Array::Dimension>;
@@ -180,6 +262,53 @@ void write(netcdf::Writer& file, const Defined& defined, const std::vector<Array
   for (std::size_t i = 0; i < arrays.size(); ++i)
     if (const std::vector<double> values = arrays[i].values(); !values.empty())
       file.write_all(defined.variables[i], values);
+}
+
+namespace {
+
+/// Centres of the cells between two ends.
+std::vector<double> centres(double from, double to, int cells) {
+  std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(cells));
+  for (int i = 0; i < cells; ++i) all.push_back(from + (to - from) * (i + 0.5) / cells);
+  return all;
+}
+
+}  // namespace
+
+std::vector<Array> arrays_of(const plane::Run& run) {
+  std::vector<Array> all;
+  const plane::Problem& p = run.solver().problem();
+  const plane::Schedule& schedule = run.schedule();
+  const double ratio = schedule.wave_speed_ratio;
+  const std::vector<plane::Field>& snapshots = run.snapshots();
+  all.push_back(coordinate(output::time_axis, values_of(snapshots, &plane::Field::time)()));
+  all.push_back(coordinate(plane::y_axis, centres(ratio * p.bottom, ratio * p.top, schedule.ny), "Y"));
+  all.push_back(coordinate(plane::x_axis, centres(p.left, p.right, schedule.nx), "X"));
+  const std::vector<Array::Dimension> cells = {all[1].dimensions.front(), all[2].dimensions.front()};
+  for (const MemberArray<plane::Field>& field : plane::field_arrays())
+    all.push_back(
+        {field.about, {all[0].dimensions.front(), cells[0], cells[1]}, values_of(snapshots, field.values), {}});
+  const auto maps = std::make_shared<const plane::Maps>(run.maps());
+  for (const MemberArray<plane::Maps>& map : plane::map_arrays())
+    all.push_back({description_of(map, schedule), cells, [maps, member = map.values] { return *maps.*member; }, {}});
+  for (const plane::SeriesNumber& number : plane::series_numbers())
+    all.push_back({number.about,
+                   {{plane::series_numbers().front().about.name, run.series().size()}},
+                   values_of(run.series(), number.get),
+                   {}});
+  const std::vector<double> frequencies = plane::spectrum_frequencies(run.series());
+  all.push_back(coordinate(plane::frequency_axis, frequencies));
+  all.push_back({plane::moment_rate_spectrum,
+                 all.back().dimensions,
+                 [&run, frequencies] { return plane::spectrum(run.series(), frequencies); },
+                 {}});
+  if (!schedule.lines) return all;
+  const auto lines = std::make_shared<const plane::LinePoints>(plane::line_points(snapshots));
+  for (const MemberArray<plane::LinePoints>& line : plane::line_arrays())
+    all.push_back(
+        {line.about, {{"line_point", lines->x.size()}}, [lines, member = line.values] { return *lines.*member; }, {}});
+  return all;
 }
 
 }  // namespace slipfront::record

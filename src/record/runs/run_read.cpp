@@ -5,11 +5,9 @@
 #include <utility>
 
 #include "record/files/seal.hpp"
-#include "record/files/text_file.hpp"
+#include "record/files/whole_file.hpp"
 #include "record/netcdf/netcdf.hpp"
 #include "record/runs/run_file.hpp"
-#include "record/runs/run_layout.hpp"
-#include "record/runs/run_variables.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/plane/quantities.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "chain/explicit/explicit_chain.hpp"
-#include "chain/explicit/levels/absorbing_end.hpp"
+#include "chain/explicit/levels/slab.hpp"
 #include "chain/measure/totals.hpp"
 #include "chain/model/initial_train.hpp"
 #include "exact_chains.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "chain/explicit/explicit_chain.hpp"
-#include "chain/explicit/levels/levels.hpp"
+#include "chain/explicit/levels/contact_force.hpp"
 #include "rough_chains.hpp"
 
 namespace {

@@ -1,5 +1,3 @@
-#include "chain/explicit/forcing_in_time.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "chain/explicit/forces.hpp"
 #include "slipfront/error.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "chain/measure/dislocations.hpp"
+#include "chain/measure/averages.hpp"
 #include "chain/measure/totals.hpp"
 #include "loaded_chains.hpp"
 

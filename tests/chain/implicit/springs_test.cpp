@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "chain/implicit/compact_springs.hpp"
-#include "chain/implicit/tridiagonal.hpp"
 
 namespace {
 

@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "chain/explicit/explicit_chain.hpp"
-#include "chain/measure/average.hpp"
-#include "chain/measure/dislocations.hpp"
+#include "chain/measure/averages.hpp"
 #include "chain/measure/totals.hpp"
 #include "exact_chains.hpp"
 

@@ -1,11 +1,10 @@
-#include "chain/measure/dislocations.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "chain/explicit/explicit_chain.hpp"
+#include "chain/measure/averages.hpp"
 #include "exact_chains.hpp"
 #include "slipfront/output/dislocation_paths.hpp"
 

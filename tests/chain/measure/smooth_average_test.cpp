@@ -1,12 +1,11 @@
 
-#include "chain/measure/smooth_average.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "chain/explicit/explicit_chain.hpp"
+#include "chain/measure/averages.hpp"
 #include "chain/model/initial_train.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "pulse/hand_over.hpp"
+#include "pulse/one_train.hpp"
 #include "pulse/solver.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"

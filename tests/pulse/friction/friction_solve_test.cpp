@@ -1,14 +1,13 @@
 // The momentum that implicit friction leaves.
 
-#include "pulse/friction/friction_solve.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "pulse/friction/cell_friction.hpp"
+#include "slipfront/modulation/modulation.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "pulse/grid/values.hpp"
+#include "pulse/grid/cells.hpp"
 
 namespace {
 

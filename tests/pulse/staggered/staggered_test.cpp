@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/modulation/modulation.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -1,5 +1,7 @@
 // Orders of the time integrators of a pulse, on y' = lambda y and on problems that are not linear.
 
+#include "pulse/time/integrators.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,11 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "pulse/grid/values.hpp"
-#include "pulse/time/ars443.hpp"
-#include "pulse/time/extrapolated_euler.hpp"
-#include "pulse/time/rodas4.hpp"
-#include "pulse/time/ssprk54.hpp"
+#include "pulse/grid/cells.hpp"
 
 namespace {
 
