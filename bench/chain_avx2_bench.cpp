@@ -3,8 +3,8 @@
 
 #define SLIPFRONT_CLONES
 #define slipfront slipfront_avx2  // its own copy of the kernel
-#include "chain/explicit/levels/kernel.cpp"
-#include "chain/model/periodic_force.cpp"
+#include "lattice/chain/explicit/levels/kernel.cpp"
+#include "lattice/chain/model/periodic_force.cpp"
 #undef slipfront
 
 #include <benchmark/benchmark.h>

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/explicit/levels/kernel.hpp"
-#include "foundation/simd/vector_code.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
+#include "math/simd/vector_code.hpp"
 #include "multiply_adds.hpp"
-#include "slipfront/chain/chain.hpp"
-#include "slipfront/chain/run.hpp"
+#include "slipfront/lattice/chain/chain.hpp"
+#include "slipfront/lattice/chain/run.hpp"
 #include "slipfront/scenario/problem.hpp"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/model/initial_train.hpp"
-#include "foundation/ranks.hpp"
-#include "slipfront/chain/chain.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/model/initial_train.hpp"
+#include "slipfront/lattice/chain/chain.hpp"
+#include "system/ranks.hpp"
 
 int main(int argc, char** argv) {
   using namespace slipfront::chain;

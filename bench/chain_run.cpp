@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/explicit/levels/contact_force.hpp"
 
 namespace {
 

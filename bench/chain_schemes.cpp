@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "chain/model/initial_train.hpp"
+#include "lattice/chain/model/initial_train.hpp"
 
 namespace {
 

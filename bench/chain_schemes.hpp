@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/model/periodic_force.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/model/periodic_force.hpp"
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))

@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/lattice/chain/run.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

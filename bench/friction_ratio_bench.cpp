@@ -2,7 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "slipfront/friction_ratio/table.hpp"
+#include "slipfront/friction/ratio/table.hpp"
 
 namespace {
 

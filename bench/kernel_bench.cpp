@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "foundation/simd/vector_code.hpp"
-#include "modulation/solve_states.hpp"
-#include "pulse/space/kernels.hpp"
-#include "pulse/space/semidiscrete.hpp"
-#include "slipfront/modulation/modulation.hpp"
+#include "averages/pulse/space/kernels.hpp"
+#include "averages/pulse/space/semidiscrete.hpp"
+#include "math/simd/vector_code.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "theory/modulation/solve_states.hpp"
 
 // Measures the cell stage of a `pulse` run and its two costliest loops. It compares them with the limit of the
 // arithmetic units, which is the rate of a loop of independent fused multiply-adds with the same vector width in the

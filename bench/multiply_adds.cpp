@@ -1,6 +1,6 @@
 #include "multiply_adds.hpp"
 
-#include "foundation/simd/vector_code.hpp"
+#include "math/simd/vector_code.hpp"
 
 SLIPFRONT_CLONES void multiply_adds(double* v, std::size_t n, double a, double b) {
   SLIPFRONT_INDEPENDENT

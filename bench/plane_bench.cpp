@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/plane/direct/motion.hpp"
+#include "lattice/plane/direct/sites.hpp"
 #include "multiply_adds.hpp"
-#include "plane/direct/motion.hpp"
-#include "plane/direct/sites.hpp"
 
 namespace {
 

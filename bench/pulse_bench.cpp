@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "pulse/solver.hpp"
-#include "slipfront/modulation/modulation.hpp"
+#include "averages/pulse/solver.hpp"
 #include "slipfront/scenario/problem.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <vector>
 
-#include "slipfront/elliptic/elliptic.hpp"
-#include "slipfront/rupture/relations.hpp"
-#include "slipfront/rupture/riemann.hpp"
-#include "slipfront/rupture/trains.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/math/elliptic.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
+#include "slipfront/theory/rupture/riemann.hpp"
+#include "slipfront/theory/rupture/trains.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

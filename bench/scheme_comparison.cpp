@@ -12,11 +12,11 @@
 #include <numbers>
 #include <vector>
 
-#include "pulse/solver.hpp"
-#include "pulse/space/semidiscrete.hpp"
-#include "rupture/inverse.hpp"
-#include "slipfront/modulation/modulation.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "averages/pulse/solver.hpp"
+#include "averages/pulse/space/semidiscrete.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
+#include "theory/rupture/inverse.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <optional>
 
-#include "slipfront/catalogue/observation.hpp"
-#include "slipfront/inference/estimate.hpp"
+#include "slipfront/events/catalogue/observation.hpp"
+#include "slipfront/events/inference/estimate.hpp"
 
 /// Aborts if a reader let through what it should have refused, or if the theory makes of it what is no number.
 inline void check_observation(const slipfront::catalogue::Observation& o) {

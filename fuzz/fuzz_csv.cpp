@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "check.hpp"
-#include "slipfront/catalogue/read.hpp"
+#include "slipfront/events/catalogue/read.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "catalogue/fault_model.hpp"
 #include "check.hpp"
-#include "finite_fault/source/source.hpp"
+#include "events/catalogue/fault_model.hpp"
+#include "events/finite_fault/source/source.hpp"
 
 namespace {
 

@@ -13,11 +13,11 @@
 #include <string_view>
 #include <vector>
 
-#include "record/events/event_file.hpp"
-#include "record/files/seal.hpp"
-#include "record/netcdf/netcdf.hpp"
-#include "record/runs/run_file.hpp"
+#include "runs/record/events/event_file.hpp"
+#include "runs/record/netcdf/netcdf.hpp"
+#include "runs/record/run_file.hpp"
 #include "slipfront/error.hpp"
+#include "system/files/seal.hpp"
 
 namespace {
 

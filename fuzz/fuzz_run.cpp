@@ -19,9 +19,9 @@
 #include <utility>
 #include <vector>
 
-#include "slipfront/chain/run.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/pulse/run.hpp"
+#include "slipfront/lattice/chain/run.hpp"
 #include "slipfront/scenario/problem.hpp"
 
 using namespace slipfront;

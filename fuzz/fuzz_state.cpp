@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "results/columns.hpp"
-#include "results/evaluate.hpp"
-#include "slipfront/catalogue/read.hpp"
-#include "slipfront/chain/run.hpp"
+#include "events/results/columns.hpp"
+#include "events/results/evaluate.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/pulse/run.hpp"
+#include "slipfront/events/catalogue/read.hpp"
+#include "slipfront/lattice/chain/run.hpp"
 
 using namespace slipfront;
 

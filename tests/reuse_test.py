@@ -24,7 +24,7 @@ class Reuse(unittest.TestCase):
         self.copy = pathlib.Path(folder.name)
         shutil.copy(ROOT / "REUSE.toml", self.copy)
         shutil.copytree(ROOT / "LICENSES", self.copy / "LICENSES")
-        for name in ("src/medium/unit_names.cpp", "cases/step.toml"):
+        for name in ("src/text/unit_names.cpp", "cases/step.toml"):
             self.add(name, (ROOT / name).read_text(encoding="utf-8"))
 
     def add(self, name, text):

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "foundation/parallel.hpp"
-#include "foundation/text/characters.hpp"
 #include "slipfront/error.hpp"
+#include "system/parallel.hpp"
+#include "text/characters.hpp"
 
 /// `make(i)` for i < count on several threads, in order: the result does not depend on how many. The exception of the
 /// lowest i is thrown. `few`: see for_each_parallel.

@@ -5,9 +5,9 @@
 #include <CLI/Version.hpp>
 #include <boost/version.hpp>
 
-#include "foundation/ranks.hpp"
 #include "installed.hpp"
-#include "record/netcdf/netcdf.hpp"
+#include "runs/record/netcdf/netcdf.hpp"
+#include "system/ranks.hpp"
 
 Json build_facts() {
   Json facts;

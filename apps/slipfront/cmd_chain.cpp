@@ -1,7 +1,7 @@
 #include <memory>
 
-#include "foundation/ranks.hpp"
 #include "long_run.hpp"
+#include "system/ranks.hpp"
 
 namespace {
 

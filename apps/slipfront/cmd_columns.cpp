@@ -7,9 +7,9 @@
 #include "batch.hpp"
 #include "commands.hpp"
 #include "json.hpp"
-#include "record/files/whole_file.hpp"
-#include "slipfront/catalogue/read.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/events/catalogue/read.hpp"
+#include "system/files/whole_file.hpp"
 #include "terminal_table.hpp"
 
 namespace {

@@ -7,10 +7,10 @@
 #include "compare_print.hpp"
 #include "interrupts.hpp"
 #include "long_run.hpp"
-#include "record/files/whole_file.hpp"
-#include "run/run.hpp"
+#include "runs/run.hpp"
 #include "scenario/estimate.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "system/files/whole_file.hpp"
 #include "terminal_table.hpp"
 
 namespace {

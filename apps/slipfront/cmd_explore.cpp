@@ -11,8 +11,8 @@
 #include "commands.hpp"
 #include "installed.hpp"
 #include "json.hpp"
-#include "record/files/whole_file.hpp"
 #include "slipfront/error.hpp"
+#include "system/files/whole_file.hpp"
 
 /// The page that shows the theory. It is one file, which the browser reads from the disk.
 

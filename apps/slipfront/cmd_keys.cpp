@@ -6,11 +6,11 @@
 
 #include "batch.hpp"
 #include "commands.hpp"
-#include "foundation/text/characters.hpp"
 #include "json.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/scenario/keys.hpp"
 #include "terminal_table.hpp"
+#include "text/characters.hpp"
 
 namespace {
 

@@ -1,11 +1,11 @@
 #include <memory>
 #include <optional>
 
-#include "foundation/ranks.hpp"
 #include "long_run.hpp"
-#include "record/files/whole_file.hpp"
-#include "run/fault.hpp"
-#include "slipfront/plane/solvers.hpp"
+#include "runs/fault.hpp"
+#include "slipfront/lattice/plane/solvers.hpp"
+#include "system/files/whole_file.hpp"
+#include "system/ranks.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "interrupts.hpp"
 #include "long_run.hpp"
-#include "run/errors.hpp"
+#include "runs/errors.hpp"
 
 namespace {
 

@@ -15,10 +15,10 @@
 #include "json.hpp"
 #include "si_options.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/medium/quantity.hpp"
-#include "slipfront/rupture/riemann.hpp"
-#include "slipfront/rupture/riemann_trains.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/text/quantity.hpp"
+#include "slipfront/theory/rupture/riemann.hpp"
+#include "slipfront/theory/rupture/riemann_trains.hpp"
+#include "slipfront/theory/train.hpp"
 #include "terminal_table.hpp"
 
 namespace {

@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "batch.hpp"
-#include "foundation/text/characters.hpp"
 #include "json.hpp"
 #include "long_run.hpp"
-#include "run/run.hpp"
-#include "run/tables.hpp"
+#include "runs/run.hpp"
+#include "runs/tables.hpp"
 #include "slipfront/scenario/keys.hpp"
 #include "slipfront/scenario/problem.hpp"
 #include "slipfront/scenario/quantities.hpp"
 #include "terminal_table.hpp"
+#include "text/characters.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <sstream>
 
-#include "foundation/text/characters.hpp"
-#include "record/files/whole_file.hpp"
 #include "slipfront/error.hpp"
+#include "system/files/whole_file.hpp"
+#include "text/characters.hpp"
 
 Option& Option::required() { return option_->required(), *this; }
 Option& Option::repeatable() { return option_->allow_extra_args(false), *this; }

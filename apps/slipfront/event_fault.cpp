@@ -2,8 +2,8 @@
 
 #include "event_print.hpp"
 #include "event_run.hpp"
-#include "record/faults/fault_files.hpp"
-#include "run/fault.hpp"
+#include "runs/fault.hpp"
+#include "runs/record/faults/fault_files.hpp"
 #include "slipfront/error.hpp"
 
 namespace {

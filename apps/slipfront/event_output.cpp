@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "events/results/columns.hpp"
 #include "json.hpp"
-#include "results/columns.hpp"
 
 namespace {
 

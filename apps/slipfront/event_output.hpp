@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "results/columns.hpp"
-#include "run/catalogue.hpp"
+#include "events/results/columns.hpp"
+#include "runs/catalogue.hpp"
 #include "terminal_table.hpp"
 
 /// One object of `{"events": [...]}`. Quantities that are not identifiable are null.

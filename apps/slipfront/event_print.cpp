@@ -7,9 +7,9 @@
 
 #include "batch.hpp"
 #include "event_output.hpp"
+#include "events/results/columns.hpp"
 #include "population_output.hpp"
-#include "record/events/event_groups.hpp"
-#include "results/columns.hpp"
+#include "runs/record/events/event_groups.hpp"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "catalogue/population.hpp"
 #include "commands.hpp"
-#include "results/evaluate.hpp"
-#include "run/catalogue.hpp"
+#include "events/catalogue/population.hpp"
+#include "events/results/evaluate.hpp"
+#include "runs/catalogue.hpp"
 #include "terminal_table.hpp"
 
 /// The parts of the results that are printed.

@@ -10,9 +10,9 @@
 #include "event_print.hpp"
 #include "interrupts.hpp"
 #include "progress.hpp"
-#include "record/events/event_groups.hpp"
-#include "record/files/whole_file.hpp"
-#include "run/catalogue.hpp"
+#include "runs/catalogue.hpp"
+#include "runs/record/events/event_groups.hpp"
+#include "system/files/whole_file.hpp"
 
 using slipfront::results::EventResult;
 using slipfront::run::EventText;

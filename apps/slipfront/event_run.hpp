@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "run/catalogue.hpp"
-#include "slipfront/medium/constants.hpp"
+#include "runs/catalogue.hpp"
+#include "slipfront/theory/medium/constants.hpp"
 
 /// Options of the command line.
 struct EventArguments {

@@ -9,9 +9,9 @@
 #include <csignal>
 
 #include "commands.hpp"
-#include "foundation/machine.hpp"
-#include "foundation/ranks.hpp"
-#include "record/files/whole_file.hpp"
+#include "system/files/whole_file.hpp"
+#include "system/machine.hpp"
+#include "system/ranks.hpp"
 
 namespace {
 

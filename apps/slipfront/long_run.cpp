@@ -11,8 +11,8 @@
 #include "batch.hpp"
 #include "interrupts.hpp"
 #include "json.hpp"
-#include "record/files/whole_file.hpp"
-#include "run/tables.hpp"
+#include "runs/tables.hpp"
+#include "system/files/whole_file.hpp"
 #include "terminal_table.hpp"
 
 using namespace slipfront;

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "foundation/ranks.hpp"
 #include "progress.hpp"
-#include "run/run.hpp"
+#include "runs/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "system/ranks.hpp"
 
 /// Arguments of the subcommands that run a scenario.
 struct ScenarioArguments {

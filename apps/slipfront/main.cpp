@@ -9,12 +9,12 @@
 #include "batch.hpp"
 #include "build_facts.hpp"
 #include "commands.hpp"
-#include "foundation/machine.hpp"
-#include "foundation/ranks.hpp"
-#include "foundation/text/characters.hpp"
 #include "interrupts.hpp"
 #include "slipfront/error.hpp"
+#include "system/machine.hpp"
+#include "system/ranks.hpp"
 #include "terminal_table.hpp"
+#include "text/characters.hpp"
 
 const slipfront::Ranks* the_ranks = nullptr;
 

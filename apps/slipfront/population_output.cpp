@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "event_output.hpp"
+#include "events/results/columns.hpp"
 #include "json.hpp"
-#include "results/columns.hpp"
 #include "terminal_table.hpp"
 
 using namespace slipfront::catalogue;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "catalogue/population.hpp"
+#include "events/catalogue/population.hpp"
 
 /// Decades of rupture velocity as a JSON array, slowest first. Unknown quantities are null.
 std::string population_json(const std::vector<slipfront::catalogue::Decade>& decades);

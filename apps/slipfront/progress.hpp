@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "foundation/machine.hpp"
+#include "system/machine.hpp"
 
 /// The progress line of long computations.
 

@@ -7,7 +7,7 @@
 
 #include "batch.hpp"
 #include "json.hpp"
-#include "slipfront/friction_ratio/table.hpp"
+#include "slipfront/friction/ratio/table.hpp"
 #include "terminal_table.hpp"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "slipfront/medium/si_units.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/theory/medium/si_units.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 /// Options of `relations` for friction. With them it computes C from a ratio of slip velocities, or the ratio from C,
 /// for both closures. The paper reads these numbers from its Fig. 10.

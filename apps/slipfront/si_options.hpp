@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "slipfront/medium/constants.hpp"
-#include "slipfront/medium/si_units.hpp"
+#include "slipfront/theory/medium/constants.hpp"
+#include "slipfront/theory/medium/si_units.hpp"
 
 /// Options for results in SI units.
 struct SiOptions {

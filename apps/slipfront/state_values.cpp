@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "record/files/whole_file.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/medium/quantity.hpp"
+#include "slipfront/text/quantity.hpp"
+#include "system/files/whole_file.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-#include "foundation/text/characters.hpp"
+#include "text/characters.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "commands.hpp"
-#include "foundation/machine.hpp"
+#include "system/machine.hpp"
 
 namespace {
 

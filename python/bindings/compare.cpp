@@ -1,17 +1,17 @@
-#include "run/compare.hpp"
+#include "runs/compare.hpp"
 
 #include <pybind11/stl.h>
 
 #include <optional>
 #include <vector>
 
-#include "foundation/math/constants.hpp"
-#include "record/files/whole_file.hpp"
-#include "record/runs/run_file.hpp"
+#include "math/constants.hpp"
 #include "results.hpp"
-#include "run/run.hpp"
+#include "runs/record/run_file.hpp"
+#include "runs/run.hpp"
 #include "scenario/estimate.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "system/files/whole_file.hpp"
 #include "watch.hpp"
 
 namespace {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "record/events/event_groups.hpp"
-#include "record/files/whole_file.hpp"
-#include "results/columns.hpp"
-#include "run/catalogue.hpp"
-#include "slipfront/catalogue/read.hpp"
+#include "events/results/columns.hpp"
+#include "runs/catalogue.hpp"
+#include "runs/record/events/event_groups.hpp"
+#include "slipfront/events/catalogue/read.hpp"
+#include "system/files/whole_file.hpp"
 #include "watch.hpp"
 
 namespace {

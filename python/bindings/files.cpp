@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "foundation/machine.hpp"
-#include "foundation/text/characters.hpp"
-#include "record/files/seal.hpp"
-#include "record/files/whole_file.hpp"
-#include "record/netcdf/netcdf.hpp"
-#include "record/netcdf/table_file.hpp"
+#include "runs/record/netcdf/netcdf.hpp"
+#include "runs/record/netcdf/table_file.hpp"
+#include "system/files/seal.hpp"
+#include "system/files/whole_file.hpp"
+#include "system/machine.hpp"
+#include "text/characters.hpp"
 
 namespace {
 

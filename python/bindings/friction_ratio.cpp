@@ -1,7 +1,7 @@
 #include <string>
 
 #include "columns.hpp"
-#include "slipfront/friction_ratio/table.hpp"
+#include "slipfront/friction/ratio/table.hpp"
 
 namespace {
 

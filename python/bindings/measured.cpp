@@ -1,4 +1,4 @@
-#include "slipfront/catalogue/measured.hpp"
+#include "slipfront/events/catalogue/measured.hpp"
 
 #include <cstddef>
 #include <string>

@@ -1,4 +1,4 @@
-#include "slipfront/medium/medium.hpp"
+#include "slipfront/theory/medium/medium.hpp"
 
 #include <pybind11/stl.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bindings.hpp"
-#include "slipfront/medium/si_units.hpp"
+#include "slipfront/theory/medium/si_units.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include <string>
 
 #include "bindings.hpp"
-#include "record/runs/run_file.hpp"
+#include "runs/record/run_file.hpp"
 
 PYBIND11_MODULE(_slipfront, m) {
   m.attr("__version__") = SLIPFRONT_VERSION;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "record/files/whole_file.hpp"
-#include "run/catalogue.hpp"
-#include "slipfront/catalogue/read.hpp"
+#include "runs/catalogue.hpp"
+#include "slipfront/events/catalogue/read.hpp"
+#include "system/files/whole_file.hpp"
 
 /// The observations of events as they were read, before any theory is applied.
 

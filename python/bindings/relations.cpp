@@ -1,13 +1,13 @@
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 #include <array>
 #include <string>
 #include <vector>
 
 #include "bindings.hpp"
-#include "foundation/parallel.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/riemann_trains.hpp"
+#include "slipfront/theory/rupture/riemann_trains.hpp"
+#include "system/parallel.hpp"
 
 namespace {
 

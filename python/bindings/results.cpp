@@ -7,9 +7,9 @@
 #include <utility>
 #include <variant>
 
-#include "record/files/whole_file.hpp"
-#include "record/runs/run_file.hpp"
-#include "run/tables.hpp"
+#include "runs/record/run_file.hpp"
+#include "runs/tables.hpp"
+#include "system/files/whole_file.hpp"
 
 using namespace slipfront;
 

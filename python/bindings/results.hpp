@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "foundation/machine.hpp"
-#include "record/runs/arrays.hpp"
-#include "record/runs/run_file.hpp"
-#include "run/run.hpp"
+#include "runs/record/arrays.hpp"
+#include "runs/record/run_file.hpp"
+#include "runs/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "system/machine.hpp"
 
 /// A run, as the Python part requests it.
 struct RunRequest {

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "record/files/whole_file.hpp"
 #include "results.hpp"
-#include "run/errors.hpp"
-#include "run/fault.hpp"
-#include "run/run.hpp"
+#include "runs/errors.hpp"
+#include "runs/fault.hpp"
+#include "runs/run.hpp"
+#include "system/files/whole_file.hpp"
 #include "watch.hpp"
 
 namespace {

@@ -16,11 +16,11 @@
 #include <tuple>
 #include <utility>
 
-#include "foundation/machine.hpp"
-#include "foundation/threads.hpp"
 #include "results.hpp"
-#include "run/run.hpp"
-#include "run/tables.hpp"
+#include "runs/run.hpp"
+#include "runs/tables.hpp"
+#include "system/machine.hpp"
+#include "system/threads.hpp"
 
 namespace {
 

@@ -1,16 +1,16 @@
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/train.hpp"
 
 #include <array>
 #include <cmath>
 #include <string>
 
 #include "columns.hpp"
-#include "foundation/text/digits.hpp"
-#include "slipfront/elliptic/elliptic.hpp"
+#include "math/digits.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/riemann.hpp"
-#include "slipfront/rupture/riemann_trains.hpp"
+#include "slipfront/math/elliptic.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "slipfront/theory/rupture/riemann.hpp"
+#include "slipfront/theory/rupture/riemann_trains.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-"""Writes files with the code of the program (src/record). A file is written completely, or not at all."""
+"""Writes files with the code of the program (src/system/files). A file is written completely, or not at all."""
 
 import contextlib
 import numbers as kinds

@@ -7,13 +7,13 @@
 #include <cstddef>
 #include <utility>
 
-#include "foundation/simd/vector_code.hpp"
 #include "friction/laws/force_of_speed.hpp"
 #include "friction/scaling.hpp"
 #include "friction/state/contacts.hpp"
+#include "math/simd/vector_code.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/friction/law.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace slipfront::friction {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "foundation/math/roots.hpp"
+#include "math/roots.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction {

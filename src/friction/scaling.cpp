@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "foundation/text/digits.hpp"
 #include "friction/laws/force_of_speed.hpp"
+#include "math/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction {

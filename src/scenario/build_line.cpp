@@ -6,13 +6,13 @@
 #include <numbers>
 #include <vector>
 
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 #include "scenario/estimate.hpp"
-#include "slipfront/elliptic/elliptic.hpp"
-#include "slipfront/rupture/riemann.hpp"
-#include "slipfront/rupture/riemann_trains.hpp"
+#include "slipfront/math/elliptic.hpp"
 #include "slipfront/scenario/problem.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/rupture/riemann.hpp"
+#include "slipfront/theory/rupture/riemann_trains.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace slipfront::scenario {
 

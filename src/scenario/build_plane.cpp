@@ -11,16 +11,16 @@
 #include <utility>
 #include <vector>
 
-#include "foundation/machine.hpp"
-#include "foundation/ranks.hpp"
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 #include "scenario/formula.hpp"
 #include "scenario/functions.hpp"
 #include "scenario/readers.hpp"
 #include "scenario/solver_errors.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/solvers.hpp"
+#include "slipfront/lattice/plane/solvers.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "system/machine.hpp"
+#include "system/ranks.hpp"
 
 namespace slipfront::scenario {
 

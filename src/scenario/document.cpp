@@ -6,13 +6,13 @@
 #include <map>
 #include <utility>
 
-#include "foundation/text/characters.hpp"
-#include "foundation/text/digits.hpp"
-#include "foundation/text/file_kind.hpp"
-#include "foundation/text/parse_toml.hpp"
-#include "foundation/text/toml_text.hpp"
+#include "math/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "text/characters.hpp"
+#include "text/file_kind.hpp"
+#include "text/parse_toml.hpp"
+#include "text/toml_text.hpp"
 
 namespace slipfront::scenario {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "slipfront/error.hpp"
-#include "slipfront/medium/constants.hpp"
 #include "slipfront/scenario/keys.hpp"
+#include "slipfront/theory/medium/constants.hpp"
 
 namespace slipfront::scenario {
 

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <string>
 
-#include "foundation/machine.hpp"
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 #include "slipfront/error.hpp"
+#include "system/machine.hpp"
 
 namespace slipfront::scenario {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pulse/solver.hpp"
-#include "slipfront/chain/run.hpp"
+#include "averages/pulse/solver.hpp"
+#include "slipfront/lattice/chain/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::scenario {

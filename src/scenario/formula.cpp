@@ -7,9 +7,9 @@
 #include <numbers>
 #include <utility>
 
-#include "foundation/text/characters.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/medium/quantity.hpp"
+#include "slipfront/text/quantity.hpp"
+#include "text/characters.hpp"
 
 namespace slipfront::scenario {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "foundation/text/digits.hpp"
 #include "friction/state/contacts.hpp"
+#include "math/digits.hpp"
 #include "scenario/document.hpp"
 #include "scenario/formula.hpp"
 #include "scenario/functions.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 
 namespace slipfront::scenario {
 

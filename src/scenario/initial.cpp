@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 #include "scenario/formula.hpp"
 #include "scenario/functions.hpp"
 #include "scenario/readers.hpp"

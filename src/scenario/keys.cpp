@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 #include "slipfront/friction/friction.hpp"
-#include "slipfront/medium/constants.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "slipfront/theory/medium/constants.hpp"
 
 namespace slipfront::scenario {
 namespace {

@@ -4,13 +4,13 @@
 #include <utility>
 #include <vector>
 
-#include "foundation/text/characters.hpp"
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 #include "scenario/document.hpp"
 #include "scenario/readers.hpp"
 #include "scenario/section.hpp"
-#include "slipfront/medium/constants.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "slipfront/theory/medium/constants.hpp"
+#include "text/characters.hpp"
 
 namespace slipfront::scenario {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "foundation/text/characters.hpp"
-#include "foundation/text/digits.hpp"
-#include "medium/units.hpp"
+#include "math/digits.hpp"
 #include "scenario/document.hpp"
-#include "slipfront/medium/quantity.hpp"
+#include "slipfront/text/quantity.hpp"
+#include "text/characters.hpp"
+#include "text/units.hpp"
 
 namespace slipfront::scenario {
 

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 
 namespace slipfront::scenario {
 namespace {

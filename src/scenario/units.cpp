@@ -6,8 +6,8 @@
 #include "scenario/section.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/friction/friction.hpp"
-#include "slipfront/medium/medium.hpp"
 #include "slipfront/scenario/quantities.hpp"
+#include "slipfront/theory/medium/medium.hpp"
 
 namespace slipfront::scenario {
 

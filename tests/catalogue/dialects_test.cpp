@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "catalogue/keys.hpp"
-#include "slipfront/catalogue/read.hpp"
+#include "events/catalogue/keys.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/events/catalogue/read.hpp"
 
 namespace {
 

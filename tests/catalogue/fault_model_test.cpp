@@ -1,4 +1,4 @@
-#include "catalogue/fault_model.hpp"
+#include "events/catalogue/fault_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The reader of finite-fault models (.fsp): values that it reads, and warnings.
 
-#include "catalogue/fault_model.hpp"
+#include "events/catalogue/fault_model.hpp"
 #include "fsp_texts.hpp"
 
 namespace slipfront::catalogue {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "folders.hpp"
-#include "slipfront/catalogue/read.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/events/catalogue/read.hpp"
 
 namespace slipfront::catalogue {
 

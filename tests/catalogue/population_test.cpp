@@ -1,10 +1,10 @@
-#include "catalogue/population.hpp"
+#include "events/catalogue/population.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "slipfront/catalogue/read.hpp"
+#include "slipfront/events/catalogue/read.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/implicit/implicit_chain.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/implicit/implicit_chain.hpp"
 #include "loaded_chains.hpp"
 #include "rough_chains.hpp"
 

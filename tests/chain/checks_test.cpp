@@ -4,9 +4,9 @@
 #include <cstring>
 #include <string>
 
-#include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/lattice/chain/run.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "chain/implicit/implicit_chain.hpp"
-#include "chain/measure/totals.hpp"
-#include "chain/model/initial_train.hpp"
-#include "chain/scaled_start.hpp"
 #include "chain_cases.hpp"
-#include "foundation/archive.hpp"
-#include "slipfront/chain/run.hpp"
+#include "lattice/chain/implicit/implicit_chain.hpp"
+#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/model/initial_train.hpp"
+#include "lattice/chain/scaled_start.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/lattice/chain/run.hpp"
+#include "system/archive.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "chain/event_outputs.hpp"
+#include "lattice/chain/event_outputs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "foundation/archive.hpp"
+#include "system/archive.hpp"
 
 namespace slipfront::chain {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "law_values.hpp"
-#include "run/compare.hpp"
+#include "runs/compare.hpp"
 #include "slipfront/scenario/problem.hpp"
 
 namespace slipfront {

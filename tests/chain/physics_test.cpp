@@ -3,14 +3,14 @@
 #include <cmath>
 #include <limits>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/explicit/levels/contact_force.hpp"
-#include "chain/measure/averages.hpp"
-#include "chain/measure/totals.hpp"
-#include "chain/model/initial_train.hpp"
 #include "exact_chains.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/measure/averages.hpp"
+#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/model/initial_train.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "slipfront/chain/run.hpp"
+#include "slipfront/lattice/chain/run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "chain_cases.hpp"
 #include "exact_chains.hpp"
-#include "slipfront/chain/run.hpp"
+#include "slipfront/lattice/chain/run.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 
 #include "error_metric.hpp"
 #include "reference_table.hpp"
-#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/math/elliptic.hpp"
 
 namespace {
 

@@ -1,10 +1,10 @@
-#include "finite_fault/along_fault.hpp"
+#include "events/finite_fault/along_fault.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 namespace {
 

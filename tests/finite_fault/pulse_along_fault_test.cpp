@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finite_fault/along_fault.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "events/finite_fault/along_fault.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "finite_fault/source/source.hpp"
+#include "events/finite_fault/source/source.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "foundation/archive.hpp"
+#include "system/archive.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
-#include "foundation/simd/elementary.hpp"
+#include "math/simd/elementary.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "averages/pulse/space/kernels.hpp"
 #include "error_metric.hpp"
-#include "foundation/simd/elliptic_fit.hpp"
-#include "modulation/solve_states.hpp"
-#include "pulse/space/kernels.hpp"
-#include "slipfront/elliptic/elliptic.hpp"
-#include "slipfront/modulation/modulation.hpp"
+#include "math/simd/elliptic_fit.hpp"
+#include "slipfront/math/elliptic.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "theory/modulation/solve_states.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "foundation/text/characters.hpp"
 #include "slipfront/error.hpp"
+#include "text/characters.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "foundation/math/roots.hpp"
+#include "math/roots.hpp"
 
 #include <gtest/gtest.h>
 

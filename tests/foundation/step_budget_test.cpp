@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "foundation/math/time_steps.hpp"
-#include "pulse/solver.hpp"
-#include "slipfront/pulse/run.hpp"
+#include "averages/pulse/solver.hpp"
+#include "math/time_steps.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/scenario/problem.hpp"
 #include "slipfront/scenario/scenario.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "foundation/math/time_steps.hpp"
+#include "math/time_steps.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "foundation/team.hpp"
+#include "system/team.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "foundation/parallel.hpp"
+#include "system/parallel.hpp"
 
 namespace {
 

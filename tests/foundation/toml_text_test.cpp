@@ -1,4 +1,4 @@
-#include "foundation/text/toml_text.hpp"
+#include "text/toml_text.hpp"
 
 #include <gtest/gtest.h>
 

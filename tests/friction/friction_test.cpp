@@ -9,7 +9,7 @@
 
 #include "reference_table.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "observed.hpp"
-#include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/friction_ratio/table.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/friction/ratio/table.hpp"
+#include "slipfront/lattice/chain/run.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "slipfront/error.hpp"
-#include "slipfront/friction_ratio/table.hpp"
+#include "slipfront/friction/ratio/table.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "slipfront/friction_ratio/table.hpp"
+#include "slipfront/friction/ratio/table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 #include "solve.hpp"
 
 namespace {

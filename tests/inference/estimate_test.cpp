@@ -1,4 +1,4 @@
-#include "slipfront/inference/estimate.hpp"
+#include "slipfront/events/inference/estimate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "folders.hpp"
-#include "slipfront/catalogue/read.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/events/catalogue/read.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "slipfront/inference/posterior.hpp"
+#include "slipfront/events/inference/posterior.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 #include <functional>
 #include <random>
 
-#include "inference/tension.hpp"
+#include "events/inference/tension.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/friction_ratio/table.hpp"
-#include "slipfront/medium/medium.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/friction/ratio/table.hpp"
+#include "slipfront/theory/medium/medium.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 namespace {
 

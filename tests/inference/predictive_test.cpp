@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "slipfront/inference/estimate.hpp"
-#include "slipfront/inference/posterior.hpp"
+#include "slipfront/events/inference/estimate.hpp"
+#include "slipfront/events/inference/posterior.hpp"
 
 namespace {
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "inference/sampling/pulse_state.hpp"
-#include "inference/sampling/weighted_samples.hpp"
-#include "slipfront/inference/estimate.hpp"
-#include "slipfront/inference/posterior.hpp"
-#include "slipfront/medium/medium.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "events/inference/sampling/pulse_state.hpp"
+#include "events/inference/sampling/weighted_samples.hpp"
+#include "slipfront/events/inference/estimate.hpp"
+#include "slipfront/events/inference/posterior.hpp"
+#include "slipfront/theory/medium/medium.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 namespace {
 

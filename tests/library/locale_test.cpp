@@ -9,12 +9,12 @@
 #include <locale>
 #include <string>
 
-#include "foundation/machine.hpp"
-#include "slipfront/catalogue/read.hpp"
-#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/medium/medium.hpp"
+#include "slipfront/events/catalogue/read.hpp"
+#include "slipfront/math/elliptic.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "slipfront/theory/medium/medium.hpp"
+#include "system/machine.hpp"
 
 namespace slipfront {
 namespace {

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "allocations.hpp"
-#include "foundation/machine.hpp"
-#include "record/netcdf/table_file.hpp"
+#include "runs/record/netcdf/table_file.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/medium/quantity.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "slipfront/text/quantity.hpp"
+#include "system/machine.hpp"
 
 #if !SLIPFRONT_SANITIZED
 

@@ -1,4 +1,4 @@
-#include "slipfront/medium/medium.hpp"
+#include "slipfront/theory/medium/medium.hpp"
 
 #include <gtest/gtest.h>
 

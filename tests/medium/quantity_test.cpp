@@ -1,4 +1,4 @@
-#include "slipfront/medium/quantity.hpp"
+#include "slipfront/text/quantity.hpp"
 
 #include <gtest/gtest.h>
 

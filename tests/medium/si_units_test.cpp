@@ -1,4 +1,4 @@
-#include "slipfront/medium/si_units.hpp"
+#include "slipfront/theory/medium/si_units.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "slipfront/error.hpp"
-#include "slipfront/medium/medium.hpp"
+#include "slipfront/theory/medium/medium.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Compares the table of units with UDUNITS-2, from which it has its names.
-#include "medium/units.hpp"
+#include "text/units.hpp"
 
 #include <gtest/gtest.h>
 #include <udunits2.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "medium/unit_names.hpp"
+#include "text/unit_names.hpp"
 
 namespace {
 

@@ -1,13 +1,13 @@
-#include "modulation/equations.hpp"
+#include "theory/modulation/equations.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "pulse/space/kernels.hpp"
-#include "slipfront/modulation/modulation.hpp"
-#include "slipfront/train/train.hpp"
+#include "averages/pulse/space/kernels.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "slipfront/modulation/modulation.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
 
 #include <gtest/gtest.h>
 

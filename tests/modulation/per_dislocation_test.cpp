@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "error_metric.hpp"
-#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/modulation.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/math/elliptic.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -1,13 +1,13 @@
-#include "modulation/solve_states.hpp"
+#include "theory/modulation/solve_states.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "modulation/equations.hpp"
-#include "slipfront/elliptic/elliptic.hpp"
-#include "slipfront/modulation/modulation.hpp"
+#include "slipfront/math/elliptic.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "theory/modulation/equations.hpp"
 
 namespace {
 

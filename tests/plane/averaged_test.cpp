@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "foundation/archive.hpp"
 #include "resumed.hpp"
 #include "rings.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/run.hpp"
-#include "slipfront/plane/solvers.hpp"
+#include "slipfront/lattice/plane/run.hpp"
+#include "slipfront/lattice/plane/solvers.hpp"
+#include "system/archive.hpp"
 
 namespace {
 

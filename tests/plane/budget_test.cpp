@@ -1,4 +1,4 @@
-#include "plane/budget.hpp"
+#include "lattice/plane/budget.hpp"
 
 #include <gtest/gtest.h>
 

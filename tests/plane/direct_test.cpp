@@ -5,12 +5,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "foundation/archive.hpp"
-#include "plane/direct/motion.hpp"
-#include "plane/direct/sites.hpp"
+#include "lattice/plane/direct/motion.hpp"
+#include "lattice/plane/direct/sites.hpp"
 #include "rings.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/solvers.hpp"
+#include "slipfront/lattice/plane/solvers.hpp"
+#include "system/archive.hpp"
 
 namespace slipfront::plane {
 namespace {

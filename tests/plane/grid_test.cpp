@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "foundation/archive.hpp"
 #include "resumed.hpp"
 #include "rings.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/solvers.hpp"
+#include "slipfront/lattice/plane/solvers.hpp"
+#include "system/archive.hpp"
 
 namespace {
 

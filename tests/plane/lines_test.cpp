@@ -1,4 +1,4 @@
-#include "plane/direct/lines.hpp"
+#include "lattice/plane/direct/lines.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "plane/direct/sites.hpp"
+#include "lattice/plane/direct/sites.hpp"
 
 namespace slipfront::plane {
 namespace {

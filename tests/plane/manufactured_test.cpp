@@ -10,8 +10,8 @@
 #include <numbers>
 #include <vector>
 
-#include "plane/averaged/equations.hpp"
-#include "plane/grid/equations.hpp"
+#include "averages/grid/equations.hpp"
+#include "averages/loops/equations.hpp"
 
 namespace {
 

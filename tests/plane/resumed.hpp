@@ -4,9 +4,9 @@
 
 #include <memory>
 
-#include "foundation/archive.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/problem.hpp"
+#include "slipfront/lattice/plane/problem.hpp"
+#include "system/archive.hpp"
 
 /// Expects that a solver that continues from the state of another gives the bits of one that never stopped, and that
 /// `other`, a solver of other cells, refuses this state.

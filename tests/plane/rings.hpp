@@ -4,8 +4,8 @@
 #include <numbers>
 #include <vector>
 
-#include "slipfront/plane/problem.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/lattice/plane/problem.hpp"
+#include "slipfront/theory/train.hpp"
 
 /// Rings of dislocations: loops at rest between the radii 1 and 2 under the tension J0 = strength / r,
 /// around a held plateau.

@@ -1,4 +1,4 @@
-#include "plane/direct/rows.hpp"
+#include "lattice/plane/direct/rows.hpp"
 
 #include <gtest/gtest.h>
 

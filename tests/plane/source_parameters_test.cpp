@@ -1,4 +1,4 @@
-#include "slipfront/plane/source_parameters.hpp"
+#include "slipfront/lattice/plane/source_parameters.hpp"
 
 #include <gtest/gtest.h>
 

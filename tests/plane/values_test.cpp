@@ -4,9 +4,9 @@
 #include <numbers>
 #include <vector>
 
-#include "plane/averaged/steps.hpp"
-#include "plane/grid/cells.hpp"
-#include "plane/grid/grid_solver.hpp"
+#include "averages/grid/cells.hpp"
+#include "averages/grid/grid_solver.hpp"
+#include "averages/loops/steps.hpp"
 #include "slipfront/error.hpp"
 
 namespace {

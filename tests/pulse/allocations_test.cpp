@@ -6,9 +6,9 @@
 #include <functional>
 #include <vector>
 
+#include "averages/pulse/grid/layout.hpp"
+#include "averages/pulse/steps/stepper.hpp"
 #include "law_values.hpp"
-#include "pulse/grid/layout.hpp"
-#include "pulse/steps/stepper.hpp"
 #include "slipfront/friction/friction.hpp"
 
 #if !SLIPFRONT_SANITIZED

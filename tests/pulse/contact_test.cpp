@@ -6,11 +6,11 @@
 #include <functional>
 #include <numbers>
 
-#include "pulse/solver.hpp"
-#include "rupture/inverse.hpp"
-#include "slipfront/elliptic/elliptic.hpp"
+#include "averages/pulse/solver.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/math/elliptic.hpp"
+#include "slipfront/theory/train.hpp"
+#include "theory/rupture/inverse.hpp"
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "pulse/solver.hpp"
-#include "slipfront/elliptic/elliptic.hpp"
-#include "slipfront/train/train.hpp"
+#include "averages/pulse/solver.hpp"
+#include "slipfront/math/elliptic.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "pulse/solver.hpp"
+#include "averages/pulse/solver.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/modulation.hpp"
-#include "slipfront/pulse/run.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
 
 namespace {
 

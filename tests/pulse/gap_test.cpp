@@ -8,11 +8,11 @@
 #include <random>
 #include <vector>
 
-#include "pulse/solver.hpp"
+#include "averages/pulse/solver.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/pulse/run.hpp"
-#include "slipfront/rupture/relations.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <vector>
 
-#include "pulse/solver.hpp"
+#include "averages/pulse/solver.hpp"
 #include "slipfront/friction/friction.hpp"
-#include "slipfront/modulation/modulation.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

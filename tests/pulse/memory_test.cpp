@@ -3,11 +3,11 @@
 #include <cmath>
 #include <string>
 
+#include "averages/pulse/solver.hpp"
 #include "law_values.hpp"
-#include "pulse/solver.hpp"
-#include "slipfront/chain/run.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/pulse/run.hpp"
+#include "slipfront/lattice/chain/run.hpp"
 
 namespace {
 

@@ -1,18 +1,18 @@
-#include "pulse/observe/observe.hpp"
+#include "averages/pulse/observe/observe.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "modulation/equations.hpp"
-#include "pulse/solver.hpp"
+#include "averages/pulse/solver.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/modulation.hpp"
-#include "slipfront/pulse/run.hpp"
-#include "slipfront/rupture/relations.hpp"
-#include "slipfront/rupture/riemann.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
+#include "slipfront/theory/rupture/riemann.hpp"
+#include "slipfront/theory/train.hpp"
+#include "theory/modulation/equations.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "pulse/solver.hpp"
-#include "pulse/space/semidiscrete.hpp"
-#include "slipfront/pulse/run.hpp"
+#include "averages/pulse/solver.hpp"
+#include "averages/pulse/space/semidiscrete.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 
 namespace {
 

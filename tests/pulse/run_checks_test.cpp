@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/friction/law.hpp"
-#include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/problem.hpp"
 #include "slipfront/scenario/scenario.hpp"
 

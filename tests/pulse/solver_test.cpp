@@ -1,4 +1,4 @@
-#include "pulse/solver.hpp"
+#include "averages/pulse/solver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/modulation.hpp"
-#include "slipfront/rupture/relations.hpp"
-#include "slipfront/rupture/riemann.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
+#include "slipfront/theory/rupture/riemann.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "pulse/checks/checks.hpp"
-#include "pulse/solver.hpp"
-#include "slipfront/pulse/run.hpp"
+#include "averages/pulse/checks/checks.hpp"
+#include "averages/pulse/solver.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 
 namespace {
 

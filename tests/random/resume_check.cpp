@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "record/files/whole_file.hpp"
-#include "record/netcdf/table_file.hpp"
+#include "runs/record/netcdf/table_file.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/problem.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "system/files/whole_file.hpp"
 
 using namespace slipfront;
 

@@ -1,4 +1,4 @@
-#include "record/events/event_file.hpp"
+#include "runs/record/events/event_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "record/files/seal.hpp"
-#include "record/files/whole_file.hpp"
-#include "record/netcdf/netcdf.hpp"
-#include "record/runs/run_file.hpp"
-#include "results/columns.hpp"
-#include "results/evaluate.hpp"
-#include "slipfront/catalogue/read.hpp"
+#include "events/results/columns.hpp"
+#include "events/results/evaluate.hpp"
+#include "runs/record/netcdf/netcdf.hpp"
+#include "runs/record/run_file.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/events/catalogue/read.hpp"
+#include "system/files/seal.hpp"
+#include "system/files/whole_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // A finished file has all that was written to it.
 
-#include "record/netcdf/netcdf.hpp"
+#include "runs/record/netcdf/netcdf.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "pulse_sample.hpp"
-#include "record/files/seal.hpp"
-#include "record/netcdf/netcdf.hpp"
-#include "record/runs/run_file.hpp"
+#include "runs/record/netcdf/netcdf.hpp"
+#include "runs/record/run_file.hpp"
 #include "slipfront/error.hpp"
+#include "system/files/seal.hpp"
 #include "temporary_folder.hpp"
 
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "pulse_sample.hpp"
-#include "record/runs/run_file.hpp"
+#include "runs/record/run_file.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/output/quantities.hpp"
+#include "slipfront/text/output/quantities.hpp"
 #include "temporary_folder.hpp"
 
 namespace {

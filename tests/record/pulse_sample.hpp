@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "record/runs/run_file.hpp"
+#include "runs/record/run_file.hpp"
 
 /// Numbers that a lossy file would not bring back: NaN, infinity, -0, subnormal, all bits of the mantissa.
 inline std::vector<slipfront::output::Snapshot> sample_snapshots(std::size_t times, std::size_t cells) {

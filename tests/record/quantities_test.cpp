@@ -1,4 +1,4 @@
-#include "slipfront/output/quantities.hpp"
+#include "slipfront/text/output/quantities.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "record/runs/run_file.hpp"
-#include "slipfront/chain/run.hpp"
-#include "slipfront/medium/si_units.hpp"
-#include "slipfront/output/slip_event.hpp"
-#include "slipfront/plane/quantities.hpp"
-#include "slipfront/pulse/run.hpp"
+#include "runs/record/run_file.hpp"
+#include "slipfront/averages/pulse/run.hpp"
+#include "slipfront/lattice/chain/run.hpp"
+#include "slipfront/lattice/plane/quantities.hpp"
+#include "slipfront/text/output/slip_event.hpp"
+#include "slipfront/theory/medium/si_units.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "record/netcdf/table_file.hpp"
+#include "runs/record/netcdf/table_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "record/files/seal.hpp"
-#include "record/netcdf/netcdf.hpp"
+#include "runs/record/netcdf/netcdf.hpp"
 #include "slipfront/error.hpp"
+#include "system/files/seal.hpp"
 #include "temporary_folder.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // Files are written completely or not at all.
 
-#include "record/files/whole_file.hpp"
+#include "system/files/whole_file.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 #include <string>
 
 #include "pulse_sample.hpp"
-#include "record/runs/run_file.hpp"
+#include "runs/record/run_file.hpp"
 #include "slipfront/error.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Compares the posterior of `slipfront event` with that of another sampler: emcee (affine-invariant ensemble) on the same density.
 
-Usage: emcee_posterior.py SLIPFRONT COEFFICIENTS     (the folder src/friction_ratio)
+Usage: emcee_posterior.py SLIPFRONT COEFFICIENTS     (the folder src/friction/ratio)
 Exit codes: 0 if medians and 5/95 % points agree within Monte Carlo error, 1 if they do not, 77 if emcee is not installed.
 
 The relations of Eqs. 8-10 use scipy's elliptic integrals, and numpy evaluates the friction ratio from the shipped table. The

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Makes src/foundation/simd/elliptic_fit.hpp, the polynomials of the pulse solver's kernels: fit_elliptic.py [FILE]. About 3 s.
+"""Makes src/math/simd/elliptic_fit.hpp, the polynomials of the pulse solver's kernels: fit_elliptic.py [FILE]. About 3 s.
 
 K = P(m1) - ln(m1) Q(m1),  E = 1 + m1 (PE(m1) - ln(m1) QE(m1))  for 0 < m1 = s^2 <= TOP, the two polynomials of a pair
 fitted together to least relative error: least squares on nodes that are denser at 0, reweighted by the errors until
@@ -102,7 +102,7 @@ def main():
         put("float", "log_over_g", c, "Coefficients of ln(1 + g) / g in powers of g, for sqrt(1/2) <= 1 + g <= sqrt(2). "
             f"The relative error is {nstr(error, 2)}.", "f")
     lines.append("}  // namespace slipfront::fit")
-    path = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2] / "src/foundation/simd/elliptic_fit.hpp"
+    path = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2] / "src/math/simd/elliptic_fit.hpp"
     path.write_text("\n".join(lines) + "\n", encoding="ascii")
 
 

@@ -1,7 +1,7 @@
 """Prints a table of the Peierls-Nabarro barrier of the chain's grid and of the lattice. It takes a minute.
 
 A dislocation at rest has more energy if it is centred on a site than if it is between two sites. The force
-F = (difference) / (2 h) moves it over this barrier (src/chain/model/barrier.hpp). At rest the diamond rule reads
+F = (difference) / (2 h) moves it over this barrier (src/lattice/chain/model/initial_train.hpp). At rest the diamond rule reads
 d2 u / h^2 = (1 + d2 / 12) sin u, and the lattice d2 u / h^2 = sin u. We solve them by Newton's method with 40 digits, because
 the barrier is far smaller than the error of the energy, which is of order h^4.
 

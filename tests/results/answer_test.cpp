@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "finite_fault/sources.hpp"
-#include "inference/sampling/weighted_samples.hpp"
-#include "results/columns.hpp"
-#include "results/evaluate.hpp"
-#include "slipfront/catalogue/read.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "events/finite_fault/sources.hpp"
+#include "events/inference/sampling/weighted_samples.hpp"
+#include "events/results/columns.hpp"
+#include "events/results/evaluate.hpp"
+#include "slipfront/events/catalogue/read.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 namespace {
 

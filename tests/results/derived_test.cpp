@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "results/evaluate.hpp"
-#include "slipfront/catalogue/read.hpp"
+#include "events/results/evaluate.hpp"
+#include "slipfront/events/catalogue/read.hpp"
 
 namespace {
 

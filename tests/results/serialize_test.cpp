@@ -3,9 +3,9 @@
 #include <bit>
 #include <cmath>
 
-#include "results/columns.hpp"
-#include "results/evaluate.hpp"
-#include "slipfront/catalogue/read.hpp"
+#include "events/results/columns.hpp"
+#include "events/results/evaluate.hpp"
+#include "slipfront/events/catalogue/read.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

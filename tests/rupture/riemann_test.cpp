@@ -1,4 +1,4 @@
-#include "slipfront/rupture/riemann.hpp"
+#include "slipfront/theory/rupture/riemann.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,9 +9,9 @@
 #include "pde_residual.hpp"
 #include "reference_table.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/modulation.hpp"
-#include "slipfront/rupture/relations.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "slipfront/rupture/riemann_trains.hpp"
+#include "slipfront/theory/rupture/riemann_trains.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/relations.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "slipfront/rupture/trains.hpp"
+#include "slipfront/theory/rupture/trains.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 
 #include "reference_table.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/modulation.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

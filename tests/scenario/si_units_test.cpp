@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include "foundation/text/digits.hpp"
-#include "slipfront/medium/medium.hpp"
+#include "math/digits.hpp"
 #include "slipfront/scenario/quantities.hpp"
+#include "slipfront/theory/medium/medium.hpp"
 #include "support.hpp"
 
 namespace slipfront::scenario {

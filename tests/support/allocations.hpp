@@ -1,7 +1,7 @@
 #pragma once
 // Counts the allocations of a thread, and lets them fail. The operators are in allocations.cpp.
 
-#include "foundation/machine.hpp"
+#include "system/machine.hpp"
 
 #if !SLIPFRONT_SANITIZED
 

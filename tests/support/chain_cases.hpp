@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "slipfront/chain/run.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "slipfront/lattice/chain/run.hpp"
 
 namespace slipfront {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <numbers>
 
-#include "slipfront/chain/chain.hpp"
+#include "slipfront/lattice/chain/chain.hpp"
 
 /// Exact solutions of u_tt - u_xx + sin u = 0, and chains that start from them.
 namespace exact {

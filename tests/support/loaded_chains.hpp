@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "chain/implicit/implicit_chain.hpp"
-#include "chain/measure/totals.hpp"
+#include "lattice/chain/implicit/implicit_chain.hpp"
+#include "lattice/chain/measure/totals.hpp"
 
 namespace loaded {
 

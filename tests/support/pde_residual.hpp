@@ -3,7 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "slipfront/modulation/modulation.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
 
 /// How far a field of states is from solving the modulation equations (6) without friction at (x, t), through the
 /// production densities and fluxes: k_t + (U k)_x and P_t + Q_x, each over the sum of the sizes of its two terms.

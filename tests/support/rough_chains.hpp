@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "slipfront/chain/chain.hpp"
+#include "slipfront/lattice/chain/chain.hpp"
 
 /// Chains of every kind of end and force, from a rough start, for comparisons to the bit.
 namespace cases {

@@ -1,4 +1,4 @@
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/train.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "commands.hpp"
 #include "computed.hpp"
-#include "slipfront/friction_ratio/table.hpp"
+#include "slipfront/friction/ratio/table.hpp"
 
 namespace slipfront::friction_ratio {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "slipfront/error.hpp"
-#include "slipfront/friction_ratio/table.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/friction/ratio/table.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 namespace slipfront::friction_ratio {
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "friction_ratio/layout.hpp"
+#include "friction/ratio/layout.hpp"
 #include "solve.hpp"
 
 namespace slipfront::friction_ratio {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "nodes.hpp"
-#include "slipfront/friction_ratio/table.hpp"
+#include "slipfront/friction/ratio/table.hpp"
 #include "solve.hpp"
 
 namespace slipfront::friction_ratio {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "friction_ratio/layout.hpp"
+#include "friction/ratio/layout.hpp"
 
 namespace slipfront::friction_ratio {
 

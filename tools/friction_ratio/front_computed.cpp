@@ -5,7 +5,7 @@
 
 #include "observed.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/friction_ratio/table.hpp"
+#include "slipfront/friction/ratio/table.hpp"
 
 namespace slipfront::friction_ratio {
 

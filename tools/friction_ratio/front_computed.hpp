@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "friction_ratio/layout.hpp"
+#include "friction/ratio/layout.hpp"
 #include "slipfront/friction/friction.hpp"
 
 namespace slipfront::friction_ratio {

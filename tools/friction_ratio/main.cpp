@@ -1,5 +1,5 @@
-// Makes the tables in src/friction_ratio with the pulse solver, and compares them with the solver at random points.
-//   friction_ratio_table make                in the folder src/friction_ratio: writes coefficients.csv, corners.csv
+// Makes the tables in src/friction/ratio with the pulse solver, and compares them with the solver at random points.
+//   friction_ratio_table make                in the folder src/friction/ratio: writes coefficients.csv, corners.csv
 //   friction_ratio_table make-front          likewise front_coefficients.csv, drop_coefficients.csv
 //   friction_ratio_table check POINTS        exit code 1 if an error exceeds the stated one
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "friction_ratio/layout.hpp"
+#include "friction/ratio/layout.hpp"
 
 namespace slipfront::friction_ratio {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "foundation/math/roots.hpp"
-#include "slipfront/rupture/relations.hpp"
-#include "slipfront/rupture/riemann.hpp"
+#include "math/roots.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
+#include "slipfront/theory/rupture/riemann.hpp"
 
 namespace slipfront::friction_ratio {
 namespace {

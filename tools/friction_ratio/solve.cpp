@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "foundation/math/interpolation.hpp"
-#include "pulse/solver.hpp"
-#include "slipfront/rupture/relations.hpp"
+#include "averages/pulse/solver.hpp"
+#include "math/interpolation.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 namespace slipfront::friction_ratio {
 namespace {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the names of units that UDUNITS-2 knows as the table of src/medium/unit_names.cpp: make.py > unit_names.cpp.
+"""Writes the names of units that UDUNITS-2 knows as the table of src/text/unit_names.cpp: make.py > unit_names.cpp.
 
 It needs the library and its database (Debian: libudunits2-0, libudunits2-data). It keeps only names of letters, and "%"."""
 
@@ -29,7 +29,7 @@ HEAD = """// tools/units/make.py generates this file from the database of UDUNIT
 // SHALL UCAR/UNIDATA BE LIABLE FOR ANY SPECIAL, INDIRECT OR CONSEQUENTIAL DAMAGES OR ANY DAMAGES WHATSOEVER RESULTING
 // FROM LOSS OF USE, DATA OR PROFITS, WHETHER IN AN ACTION OF CONTRACT, NEGLIGENCE OR OTHER TORTIOUS ACTION, ARISING
 // OUT OF OR IN CONNECTION WITH THE ACCESS, USE OR PERFORMANCE OF THIS SOFTWARE.
-#include "medium/unit_names.hpp"
+#include "text/unit_names.hpp"
 
 namespace slipfront::medium {
 namespace {

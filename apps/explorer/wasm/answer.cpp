@@ -5,7 +5,7 @@
 #include <exception>
 #include <new>
 
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::explorer {

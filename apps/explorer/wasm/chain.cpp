@@ -8,13 +8,13 @@
 #include <numbers>
 #include <span>
 
-#include "chain/measure/averages.hpp"
-#include "chain/scaled_start.hpp"
-#include "foundation/machine.hpp"
+#include "lattice/chain/measure/averages.hpp"
+#include "lattice/chain/scaled_start.hpp"
 #include "scenario.hpp"
-#include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/lattice/chain/run.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "system/machine.hpp"
 
 namespace slipfront::explorer {
 namespace {

@@ -2,9 +2,9 @@
 /// Panel "Stress and velocity": an event that somebody types, put through the theory.
 
 #include "answer.hpp"
-#include "slipfront/catalogue/read.hpp"
-#include "slipfront/inference/estimate.hpp"
-#include "slipfront/inference/posterior.hpp"
+#include "slipfront/events/catalogue/read.hpp"
+#include "slipfront/events/inference/estimate.hpp"
+#include "slipfront/events/inference/posterior.hpp"
 
 namespace slipfront::explorer {
 namespace {

@@ -9,14 +9,14 @@
 #include <string_view>
 #include <vector>
 
-#include "chain/scaled_start.hpp"
-#include "foundation/machine.hpp"
+#include "lattice/chain/scaled_start.hpp"
 #include "scenario.hpp"
-#include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/medium/si_units.hpp"
-#include "slipfront/output/slip_event.hpp"
+#include "slipfront/lattice/chain/run.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "slipfront/text/output/slip_event.hpp"
+#include "slipfront/theory/medium/si_units.hpp"
+#include "system/machine.hpp"
 
 namespace slipfront::explorer {
 namespace {

@@ -1,12 +1,12 @@
 /// \file
 /// SI units of every panel, and the answer to a typed event.
 
-#include "slipfront/medium/medium.hpp"
+#include "slipfront/theory/medium/medium.hpp"
 
 #include "answer.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/medium/constants.hpp"
-#include "slipfront/medium/quantity.hpp"
+#include "slipfront/text/quantity.hpp"
+#include "slipfront/theory/medium/constants.hpp"
 
 namespace slipfront::explorer {
 namespace {

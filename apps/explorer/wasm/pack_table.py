@@ -1,4 +1,4 @@
-"""Packs the tables of coefficients for the page: pack_table.py FOLDER OUT, with the folder src/friction_ratio.
+"""Packs the tables of coefficients for the page: pack_table.py FOLDER OUT, with the folder src/friction/ratio.
 
 A coefficient becomes a whole multiple of a quantum: 1e-8 for a table of doubles, which is far below the error of the
 tables, and 1 for a table of whole numbers. The numbers are written in bytes, seven bits each, so that a small one has one

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "answer.hpp"
-#include "foundation/machine.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/plane/quantities.hpp"
-#include "slipfront/plane/run.hpp"
-#include "slipfront/plane/solvers.hpp"
+#include "slipfront/lattice/plane/quantities.hpp"
+#include "slipfront/lattice/plane/run.hpp"
+#include "slipfront/lattice/plane/solvers.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "system/machine.hpp"
 
 namespace slipfront::explorer {
 namespace {

@@ -9,13 +9,13 @@
 #include <type_traits>
 #include <variant>
 
-#include "foundation/machine.hpp"
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 #include "scenario.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/output/quantities.hpp"
-#include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "slipfront/text/output/quantities.hpp"
+#include "system/machine.hpp"
 
 namespace slipfront::explorer {
 namespace {

@@ -1,14 +1,14 @@
 /// \file
 /// The functions of panel "Stress and velocity": the closed form (Eqs. 8-10).
 
-#include "slipfront/rupture/relations.hpp"
+#include "slipfront/theory/rupture/relations.hpp"
 
 #include <cmath>
 
 #include "answer.hpp"
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/riemann.hpp"
+#include "slipfront/theory/rupture/riemann.hpp"
 
 namespace slipfront::explorer {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "answer.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/riemann_trains.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/rupture/riemann_trains.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace slipfront::explorer {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 #include "scenario/document.hpp"
-#include "slipfront/medium/constants.hpp"
 #include "slipfront/scenario/problem.hpp"
+#include "slipfront/theory/medium/constants.hpp"
 
 namespace slipfront::explorer {
 namespace {

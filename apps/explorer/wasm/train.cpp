@@ -1,13 +1,13 @@
 /// \file
 /// One uniform train of dislocations, as in the paper's Fig. 2: its fields and their averages (Eqs. 4-5).
 
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/train.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "answer.hpp"
-#include "foundation/text/digits.hpp"
+#include "math/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::explorer {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "friction_ratio/layout.hpp"
+#include "friction/ratio/layout.hpp"
 
 namespace slipfront::friction_ratio {
 

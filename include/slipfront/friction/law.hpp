@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace slipfront::friction {
 

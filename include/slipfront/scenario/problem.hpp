@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "slipfront/chain/run.hpp"
-#include "slipfront/plane/run.hpp"
-#include "slipfront/pulse/run.hpp"
+#include "slipfront/averages/pulse/run.hpp"
+#include "slipfront/lattice/chain/run.hpp"
+#include "slipfront/lattice/plane/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront {

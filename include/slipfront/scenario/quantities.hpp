@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "slipfront/medium/constants.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "slipfront/theory/medium/constants.hpp"
 
 namespace slipfront::scenario {
 

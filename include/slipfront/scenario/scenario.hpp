@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include "slipfront/chain/problem.hpp"
+#include "slipfront/averages/pulse/problem.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/friction/friction.hpp"
-#include "slipfront/medium/constants.hpp"
-#include "slipfront/medium/si_units.hpp"
-#include "slipfront/plane/problem.hpp"
-#include "slipfront/pulse/problem.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/lattice/chain/problem.hpp"
+#include "slipfront/lattice/plane/problem.hpp"
+#include "slipfront/theory/medium/constants.hpp"
+#include "slipfront/theory/medium/si_units.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace slipfront::scenario {
 

@@ -46,7 +46,7 @@ NAMES = {
 #: Units of quantities whose variable has none, as in CSV files.
 UNITS = {name: unit for name, _, unit, _ in relations_quantities if unit}
 
-# src/inference/quantities.cpp declares the names and units of events.
+# src/events/inference/quantities.cpp declares the names and units of events.
 for _name, _unit, _label in event_quantities():
     if _label:
         NAMES[_name] = _label

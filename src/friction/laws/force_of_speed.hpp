@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "foundation/simd/vector_code.hpp"
+#include "math/simd/vector_code.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {

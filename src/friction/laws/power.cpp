@@ -3,12 +3,12 @@
 #include <cstddef>
 #include <numbers>
 
-#include "foundation/math/interpolation.hpp"
-#include "foundation/simd/elementary.hpp"
-#include "foundation/simd/vector_code.hpp"
 #include "friction/train_means/tabulated_average.hpp"
-#include "slipfront/elliptic/elliptic.hpp"
-#include "slipfront/train/train.hpp"
+#include "math/interpolation.hpp"
+#include "math/simd/elementary.hpp"
+#include "math/simd/vector_code.hpp"
+#include "slipfront/math/elliptic.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace slipfront::friction {
 namespace {

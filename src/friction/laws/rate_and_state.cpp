@@ -4,12 +4,12 @@
 #include <cmath>
 #include <vector>
 
-#include "foundation/simd/elementary.hpp"
-#include "foundation/simd/vector_code.hpp"
 #include "friction/laws/force_of_speed.hpp"
 #include "friction/laws/rate_and_state_loops.hpp"
 #include "friction/state/contacts.hpp"
 #include "friction/train_means/asinh_average.hpp"
+#include "math/simd/elementary.hpp"
+#include "math/simd/vector_code.hpp"
 
 namespace slipfront::friction {
 namespace {

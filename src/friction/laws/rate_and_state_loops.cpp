@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "foundation/simd/vector_code.hpp"
+#include "math/simd/vector_code.hpp"
 
 namespace slipfront::friction {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "foundation/simd/vector_code.hpp"
+#include "math/simd/vector_code.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {

@@ -10,10 +10,10 @@
 #include <mutex>
 #include <utility>
 
-#include "foundation/simd/elementary.hpp"
-#include "foundation/simd/vector_code.hpp"
 #include "friction/train_means/chebyshev.hpp"
 #include "friction/train_means/tabulated_average.hpp"
+#include "math/simd/elementary.hpp"
+#include "math/simd/vector_code.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction {

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "slipfront/elliptic/elliptic.hpp"
 #include "slipfront/friction/law.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/math/elliptic.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace slipfront::friction {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "foundation/simd/elementary.hpp"
-#include "foundation/simd/vector_code.hpp"
+#include "math/simd/elementary.hpp"
+#include "math/simd/vector_code.hpp"
 
 namespace slipfront::friction {
 namespace {

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "foundation/simd/elementary.hpp"
-#include "foundation/simd/vector_code.hpp"
 #include "friction/train_means/mean_over_train.hpp"
+#include "math/simd/elementary.hpp"
+#include "math/simd/vector_code.hpp"
 
 namespace slipfront::friction {
 namespace {

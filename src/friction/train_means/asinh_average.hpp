@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "foundation/simd/elementary.hpp"
 #include "friction/train_means/chebyshev.hpp"
+#include "math/simd/elementary.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "foundation/math/roots.hpp"
-#include "foundation/simd/vector_code.hpp"
-#include "slipfront/elliptic/elliptic.hpp"
+#include "math/roots.hpp"
+#include "math/simd/vector_code.hpp"
+#include "slipfront/math/elliptic.hpp"
 
 namespace slipfront::friction {
 namespace {

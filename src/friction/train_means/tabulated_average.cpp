@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "foundation/simd/elementary.hpp"
-#include "foundation/simd/vector_code.hpp"
 #include "friction/train_means/mean_over_train.hpp"
+#include "math/simd/elementary.hpp"
+#include "math/simd/vector_code.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction {

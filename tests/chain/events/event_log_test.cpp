@@ -1,4 +1,4 @@
-#include "chain/events/event_log.hpp"
+#include "lattice/chain/events/event_log.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "foundation/archive.hpp"
 #include "slipfront/error.hpp"
+#include "system/archive.hpp"
 
 namespace {
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "foundation/archive.hpp"
 #include "loaded_chains.hpp"
 #include "slipfront/error.hpp"
+#include "system/archive.hpp"
 
 namespace {
 

@@ -4,13 +4,13 @@
 #include <numbers>
 #include <vector>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/explicit/levels/slab.hpp"
-#include "chain/measure/totals.hpp"
-#include "chain/model/initial_train.hpp"
 #include "exact_chains.hpp"
-#include "slipfront/chain/run.hpp"
-#include "slipfront/train/train.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/explicit/levels/slab.hpp"
+#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/model/initial_train.hpp"
+#include "slipfront/lattice/chain/run.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

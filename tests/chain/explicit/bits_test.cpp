@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/explicit/levels/contact_force.hpp"
 #include "rough_chains.hpp"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <vector>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/explicit/levels/contact_force.hpp"
-#include "chain/explicit/levels/kernel.hpp"
 #include "exact_chains.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "chain/explicit/explicit_chain.hpp"
 #include "exact_chains.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "chain/explicit/forces.hpp"
+#include "lattice/chain/explicit/forces.hpp"
 #include "slipfront/error.hpp"
 
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <vector>
 
-#include "chain/explicit/levels/contact_force.hpp"
-#include "chain/explicit/levels/kernel.hpp"
-#include "chain/explicit/levels/scheme.hpp"
-#include "chain/implicit/watched_parts.hpp"
+#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
+#include "lattice/chain/explicit/levels/scheme.hpp"
+#include "lattice/chain/implicit/watched_parts.hpp"
 
 namespace {
 

@@ -14,18 +14,18 @@
 #include <string>
 #include <vector>
 
-#include "chain/explicit/contact_field.hpp"
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/explicit/levels/contact_force.hpp"
-#include "chain/implicit/implicit_chain.hpp"
-#include "chain/measure/averages.hpp"
-#include "chain/measure/totals.hpp"
-#include "chain/model/initial_train.hpp"
-#include "chain/scaled_start.hpp"
-#include "foundation/archive.hpp"
-#include "foundation/ranks.hpp"
+#include "lattice/chain/explicit/contact_field.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/implicit/implicit_chain.hpp"
+#include "lattice/chain/measure/averages.hpp"
+#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/model/initial_train.hpp"
+#include "lattice/chain/scaled_start.hpp"
 #include "rough_chains.hpp"
 #include "slipfront/error.hpp"
+#include "system/archive.hpp"
+#include "system/ranks.hpp"
 
 namespace {
 

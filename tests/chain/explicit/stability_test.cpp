@@ -4,8 +4,8 @@
 #include <numbers>
 #include <string>
 
-#include "slipfront/chain/run.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/lattice/chain/run.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "chain/measure/averages.hpp"
-#include "chain/measure/totals.hpp"
+#include "lattice/chain/measure/averages.hpp"
+#include "lattice/chain/measure/totals.hpp"
 #include "loaded_chains.hpp"
 
 namespace {

@@ -6,12 +6,12 @@
 #include <string>
 #include <utility>
 
-#include "chain/measure/totals.hpp"
-#include "chain/model/initial_train.hpp"
 #include "exact_chains.hpp"
-#include "foundation/archive.hpp"
+#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/model/initial_train.hpp"
 #include "loaded_chains.hpp"
 #include "slipfront/error.hpp"
+#include "system/archive.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // One implicit step: its error, its order under friction, its balance of energy, and contacts in its middle.
 
-#include "chain/implicit/implicit_step.hpp"
+#include "lattice/chain/implicit/implicit_step.hpp"
 
 #include <gtest/gtest.h>
 

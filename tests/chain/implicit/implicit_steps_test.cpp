@@ -6,11 +6,11 @@
 #include <tuple>
 #include <vector>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/model/initial_train.hpp"
-#include "foundation/archive.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/model/initial_train.hpp"
 #include "loaded_chains.hpp"
 #include "slipfront/error.hpp"
+#include "system/archive.hpp"
 
 namespace {
 

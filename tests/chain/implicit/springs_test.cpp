@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "chain/implicit/compact_springs.hpp"
+#include "lattice/chain/implicit/compact_springs.hpp"
 
 namespace {
 

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/measure/averages.hpp"
-#include "chain/measure/totals.hpp"
 #include "exact_chains.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/measure/averages.hpp"
+#include "lattice/chain/measure/totals.hpp"
 
 namespace {
 

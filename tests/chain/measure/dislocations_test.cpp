@@ -3,10 +3,10 @@
 #include <cmath>
 #include <vector>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/measure/averages.hpp"
 #include "exact_chains.hpp"
-#include "slipfront/output/dislocation_paths.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/measure/averages.hpp"
+#include "slipfront/text/output/dislocation_paths.hpp"
 
 namespace {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "chain/explicit/explicit_chain.hpp"
-#include "chain/measure/averages.hpp"
-#include "chain/model/initial_train.hpp"
+#include "lattice/chain/explicit/explicit_chain.hpp"
+#include "lattice/chain/measure/averages.hpp"
+#include "lattice/chain/model/initial_train.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Several trains at one position: steps against the exact Riemann problem, smooth stress against one train before
 // dislocations overtake each other, invariants and symmetry behind that.
-#include "pulse/contours/many_trains.hpp"
+#include "averages/pulse/contours/many_trains.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@
 #include <numbers>
 #include <vector>
 
-#include "pulse/one_train.hpp"
-#include "pulse/solver.hpp"
+#include "averages/pulse/one_train.hpp"
+#include "averages/pulse/solver.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/pulse/run.hpp"
-#include "slipfront/rupture/riemann_trains.hpp"
-#include "slipfront/rupture/trains.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/rupture/riemann_trains.hpp"
+#include "slipfront/theory/rupture/trains.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "pulse/friction/cell_friction.hpp"
-#include "slipfront/modulation/modulation.hpp"
+#include "averages/pulse/friction/cell_friction.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Cells at t = 0.
 
-#include "pulse/grid/layout.hpp"
+#include "averages/pulse/grid/layout.hpp"
 
 #include <gtest/gtest.h>
 

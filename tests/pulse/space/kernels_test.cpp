@@ -1,4 +1,4 @@
-#include "pulse/space/kernels.hpp"
+#include "averages/pulse/space/kernels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "foundation/math/weno.hpp"
-#include "pulse/space/kernels.hpp"
+#include "averages/pulse/space/kernels.hpp"
+#include "math/weno.hpp"
 
 namespace {
 

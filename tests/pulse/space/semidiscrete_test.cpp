@@ -1,6 +1,6 @@
 // Rates and times that the equations in the cells report, for trains in which they are known.
 
-#include "pulse/space/semidiscrete.hpp"
+#include "averages/pulse/space/semidiscrete.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "pulse/grid/cells.hpp"
+#include "averages/pulse/grid/cells.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // The staggered equations: momenta at the faces, and the step that takes friction there implicitly.
 
-#include "pulse/staggered/staggered.hpp"
+#include "averages/pulse/staggered/staggered.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <vector>
 
-#include "slipfront/modulation/modulation.hpp"
-#include "slipfront/train/train.hpp"
+#include "slipfront/theory/modulation/modulation.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace {
 

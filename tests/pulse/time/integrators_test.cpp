@@ -1,6 +1,6 @@
 // Orders of the time integrators of a pulse, on y' = lambda y and on problems that are not linear.
 
-#include "pulse/time/integrators.hpp"
+#include "averages/pulse/time/integrators.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "pulse/grid/cells.hpp"
+#include "averages/pulse/grid/cells.hpp"
 
 namespace {
 

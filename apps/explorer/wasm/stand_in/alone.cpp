@@ -1,8 +1,8 @@
 /// \file
 /// The machine functions of the library for a web page, which has one thread and limited memory.
 
-#include "foundation/machine.hpp"
-#include "foundation/parallel.hpp"
+#include "system/machine.hpp"
+#include "system/parallel.hpp"
 
 namespace slipfront {
 

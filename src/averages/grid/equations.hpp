@@ -1,0 +1,101 @@
+#pragma once
+/// \file
+/// The averaged equation on a fixed grid, for the mean slip U and the wave action I = g U_t:
+///     U_t = V |grad U|,    I_t = div(g grad U) + F - <f>,    g = 4 E K / pi^2
+/// V and g are those of the train with the density |grad U| / (2 pi) and the momentum 2 pi I per dislocation.
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "averages/grid/cells.hpp"
+#include "theory/modulation/solve_states.hpp"
+
+namespace slipfront::plane {
+
+/// The unknowns in each cell. Outside the rupture front, `slip` continues with negative values for a few cells, so
+/// that it is 0 at the front. `action` continues, too.
+struct Averages {
+  std::vector<double> slip;    ///< U, in b / 2 pi
+  std::vector<double> action;  ///< I
+};
+
+/// Gradient of the slip below which there are nearly no dislocation lines.
+inline constexpr double no_lines = 0.05;
+
+/// States of trains at some cells or faces, for solve_states.
+struct Trains {
+  std::vector<std::size_t> at;  ///< cells or faces
+  std::vector<double> gradient, spacing, momentum, s, phi, psi, sound, EK, velocity, solved;
+  std::vector<double> contact;  ///< empty: 1
+  std::vector<double> guess;    ///< tanh(psi) of the last solution, for all cells or faces
+  void resize(std::size_t count);
+  modulation::StateArrays arrays();
+  void solve_again();
+};
+/// Finds the states from spacings, momenta and guesses. \throws NumericsError, whose position `where` gives, if there
+/// is none.
+void solve_all(Trains& trains, const std::function<std::string(std::size_t)>& where = {});
+/// Density of the energy of a train, g |grad U|^2 - a^2 p.
+double energy_density(const Trains& trains, std::size_t i);
+/// Sets the spacing from the gradient. Where there are nearly no lines, it is that of `no_lines`.
+void set_spacing(Trains& trains, std::size_t i);
+
+class GridEquations {
+ public:
+  GridEquations(const Problem& problem, const Cells& cells, const Walls& walls);
+
+  /// Chooses the cells that move: those whose slip is known.
+  void set_known(const std::vector<char>& known);
+  /// Finds the rates without friction and without loads. \throws NumericsError with time and position if no state has
+  /// these numbers.
+  void find_rates(double t, Averages& now, Averages& rate);
+
+  // Results of the last call, for the cells in trains().at.
+  const Trains& trains() const { return in_cells_; }
+  /// Whether dislocation lines of different directions meet.
+  bool lines_meet() const { return lines_meet_; }
+  /// Whether a cell has no lines around.
+  bool is_flat(std::size_t cell) const;
+  /// A cell that has slip: the size of the gradient on its side inside the front, and the area up to the front, in
+  /// cells.
+  struct Inside {
+    double gradient, area;
+  };
+  Inside inside(std::size_t cell, const std::vector<double>& slip) const;
+  /// The initial guesses of the next solution, in cells and at faces along x and y.
+  using Guesses = std::array<std::vector<double>, 3>;
+  Guesses guesses() const { return {in_cells_.guess, in_faces_[0].guess, in_faces_[1].guess}; }
+  void set_guesses(const Guesses& guesses) {
+    in_cells_.guess = guesses[0];
+    in_faces_[0].guess = guesses[1];
+    in_faces_[1].guess = guesses[2];
+  }
+
+ private:
+  double gradient_in(std::size_t cell) const { return std::hypot(slope_[0][cell], slope_[1][cell]); }
+  void find_gradients(const std::vector<double>& slip);
+  void find_slopes();
+  void find_meeting(const Averages& now);
+  void solve(double t, Trains& trains, const std::vector<double>& action);
+  void find_slip_rates(Averages& rate);
+  void find_fluxes(double t, const Averages& now, bool along_y);
+  void find_transverse(bool along_y);
+  void find_actions(const std::vector<double>& slip, const std::vector<double>& action, bool along_y);
+
+  const Problem& problem_;
+  const Cells& cells_;
+  const Walls& walls_;
+  std::vector<char> known_;
+  Trains in_cells_;
+  std::array<Trains, 2> in_faces_;                       ///< along x and y
+  std::array<std::vector<double>, 2> gradient_, slope_;  ///< gradients of the slip, at faces and in cells
+  std::array<std::vector<double>, 2> flux_;
+  std::vector<double> spread_;                        ///< half the jumps of the one-sided slopes of each cell
+  std::vector<double> transverse_, at_faces_, jump_;  ///< at the faces of one direction
+  bool lines_meet_ = false;
+};
+
+}  // namespace slipfront::plane

@@ -1,0 +1,268 @@
+#include "lattice/chain/explicit/explicit_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "lattice/chain/explicit/first_levels.hpp"
+#include "lattice/chain/explicit/share.hpp"
+#include "lattice/chain/model/initial_train.hpp"
+#include "math/constants.hpp"
+#include "slipfront/error.hpp"
+#include "system/archive.hpp"
+
+namespace slipfront::chain {
+namespace {
+
+/// Pieces of levels that a caller holds whole.
+LevelsOf pieces_of(const Levels& saved, std::size_t sites) {
+  return [&saved, sites](std::size_t begin, std::size_t end) -> Levels {
+    if (saved.now.size() != sites || saved.before.size() != sites)
+      throw InputError({.key = "resume",
+                        .value = std::to_string(saved.now.size()) + " sites",
+                        .problem = "does not fit the scenario",
+                        .allowed = std::to_string(sites) + " sites"});
+    const auto part = [](const std::vector<double>& all, std::size_t from, std::size_t to) {
+      const auto at = [&](std::size_t j) { return all.begin() + static_cast<std::ptrdiff_t>(j); };
+      return std::vector<double>(at(from), at(to));
+    };
+    const std::size_t variables = saved.state.size() / sites;
+    return {saved.level, part(saved.now, begin, end), part(saved.before, begin, end),
+            part(saved.state, variables * begin, variables * end)};
+  };
+}
+
+}  // namespace
+
+ExplicitChain::ExplicitChain(const Problem& p, const MotionOf& start, const Execution& execution)
+    : Chain(p, execution.ranks), execution_(execution) {
+  StartCheck look;
+  ranks().together([&] {
+    check(p, ranks().share_of_machine());
+    share_ = std::make_unique<Share>(p, execution, ranks(), 0);
+    share_->fill([&](std::size_t begin, std::size_t end) {
+      return first_levels(p, share_->scheme(), share_->forces(), start, begin, end, look);
+    });
+  });
+  look.finish(p, ranks());
+  ranks().together([&] { check_charge(p, start); });
+}
+
+ExplicitChain::ExplicitChain(const Problem& p, long level, const LevelsOf& saved, const Execution& execution)
+    : Chain(p, execution.ranks), execution_(execution) {
+  start_from(level, saved);
+}
+
+ExplicitChain::ExplicitChain(const Problem& p, const Motion& start, const Execution& execution)
+    : ExplicitChain(p, pieces_of(start, p.grid.sites), execution) {}
+ExplicitChain::ExplicitChain(const Problem& p, const Levels& saved, const Execution& execution)
+    : ExplicitChain(p, saved.level, pieces_of(saved, p.grid.sites), execution) {}
+
+ExplicitChain::~ExplicitChain() = default;
+ExplicitChain::ExplicitChain(ExplicitChain&&) noexcept = default;
+
+void ExplicitChain::start_from(long level, const LevelsOf& saved) {
+  constexpr long most = no_limit / 2;  // the levels after it are numbers too
+  ranks().together([&] {
+    check(problem(), ranks().share_of_machine());
+    if (!(level >= 0 && level <= most))
+      throw InputError(
+          {.key = "resume", .value = std::to_string(level), .problem = "not a level", .allowed = "0 or greater"});
+    share_ = std::make_unique<Share>(problem(), execution_, ranks(), level);
+    share_->fill(saved);
+  });
+}
+
+double ExplicitChain::dt() const { return share_->scheme().dt; }
+double ExplicitChain::time() const { return share_->time(); }
+long ExplicitChain::steps() const { return share_->level(); }
+
+void ExplicitChain::advance(long levels) {
+  valid_ = false;
+  while (levels > 0) {
+    const long some = std::min(levels, static_cast<long>(share_->depth()));
+    share_->advance(static_cast<std::size_t>(some));
+    ranks().together([this] { share_->check_numbers(); });
+    levels -= some;
+  }
+  valid_ = true;
+}
+
+bool ExplicitChain::advance_to(double time, long most) {
+  advance(std::min(std::lround(time / dt()) - steps(), most));
+  return reached(time);
+}
+
+void ExplicitChain::exchange() const { share_->exchange(); }
+Window ExplicitChain::own_window(std::size_t begin, std::size_t end, double time) const {
+  return window_of(*share_, begin, end, time);
+}
+
+Flows ExplicitChain::flows() const { return share_->flows(); }
+std::vector<double> ExplicitChain::flow_sums() const { return share_->flow_sums(); }
+
+Levels ExplicitChain::levels(std::size_t begin, std::size_t end) const {
+  Levels levels = share_->levels(begin, end);
+  if (ranks().size() == 1) return levels;
+  levels.now = ranks().joined_at_first(levels.now);
+  levels.before = ranks().joined_at_first(levels.before);
+  levels.state = ranks().joined_at_first(levels.state);
+  return levels;
+}
+
+Levels ExplicitChain::levels() const {
+  const std::size_t sites = problem().grid.sites;
+  if (ranks().size() == 1) return levels(0, sites);
+  Levels all;
+  all.level = steps();
+  constexpr std::size_t piece = std::size_t{1} << 26;  // the largest message
+  for (std::size_t begin = 0; begin < sites; begin += piece) {
+    const Levels some = levels(begin, std::min(begin + piece, sites));
+    all.now.insert(all.now.end(), some.now.begin(), some.now.end());
+    all.before.insert(all.before.end(), some.before.begin(), some.before.end());
+    all.state.insert(all.state.end(), some.state.begin(), some.state.end());
+  }
+  return all;
+}
+
+void ExplicitChain::archive(Archive& a) {
+  Levels all;
+  std::vector<double> flows;
+  if (!a.reads()) {
+    all = levels();
+    flows = flow_sums();
+  }
+  const std::vector<std::string> variables = state_names(problem());
+  std::string names;
+  for (const std::string& name : variables) names += name + " ";
+  a.same(names);
+  a(flows, all.level, all.state, all.now, all.before);
+  a.require(all.state.size() == variables.size() * all.now.size());
+  if (!a.reads()) return;
+  start_from(all.level, pieces_of(all, problem().grid.sites));
+  share_->continue_flows(flows);
+  valid_ = true;
+}
+
+namespace {
+
+/// z / 2 pi of `wide` sites from `low` on at three levels. The arrays begin `lanes` elements before.
+struct Displaced {
+  long low;
+  std::size_t wide;
+  std::vector<double> old, now, next;
+};
+
+/// Computes the next level, but for the two sites at either side.
+void compute_next(const Forces& forces, Displaced& d) {
+  const std::size_t room = d.now.size();
+  std::vector<double> y(room), coefficients(forces.has_contact() ? PeriodicForce::terms * room : 0);
+  LevelSites sites{.offset = d.low - static_cast<long>(lanes),
+                   .left = lanes + 2,  // two sites in, neighbours are there
+                   .right = lanes + d.wide - 2,
+                   .before = d.old.data(),
+                   .now = d.now.data(),
+                   .next = d.next.data(),
+                   .y = y.data()};
+  if (!coefficients.empty()) {
+    forces.contact_coefficients(sites.offset, lanes, lanes + (d.wide + lanes - 1) / lanes * lanes, coefficients.data());
+    sites.coefficients = coefficients.data();
+  }
+  if (forces.variables() > 0) sites.states = {forces.state_of(sites.offset), forces.variables()};
+  Outflow unused;
+  forces.begin_level({}, sites, unused);
+  forces.add_load_and_friction({}, sites);
+}
+
+/// Both levels of sites [from, to) and five on either side, or more where an absorbing end needs its neighbours; and
+/// the next level, which is computed only for the window.
+Displaced displaced(const Share& share, std::size_t from, std::size_t to) {
+  const Problem& p = share.problem();
+  const EndConditions& ends = share.ends();
+  const long n = static_cast<long>(p.grid.sites);
+  constexpr std::size_t beside = 5;
+  const bool absorbs_left = from == 0 && ends.left == EndCondition::absorbing;
+  const bool absorbs_right = static_cast<long>(to) == n && ends.right == EndCondition::absorbing;
+  const std::size_t left = std::max(from, share.begin()) - share.begin(),
+                    right = share.end() - std::min(to, share.end());
+  const std::size_t more_left = absorbs_right ? std::min(left, ends.absorbing_right.reach + 3) : 0;
+  const std::size_t more_right = absorbs_left ? std::min(right, ends.absorbing_left.reach + 3) : 0;
+  const std::size_t reach = beside + more_left;
+  const std::size_t wide = reach + (to - from) + beside + more_right, room = wide + 4 * lanes;
+  const auto column = [room] { return std::vector<double>(room); };
+  Displaced d{static_cast<long>(from) - static_cast<long>(reach), wide, column(), column(), column()};
+  for (std::size_t j = 0; j < wide; ++j) {
+    const auto [now, old] = share.site(d.low + static_cast<long>(j));
+    d.now[j + lanes] = now;
+    d.old[j + lanes] = old;
+  }
+  compute_next(share.forces(), d);
+  const auto at = [&](long j) { return static_cast<std::size_t>(j - d.low) + lanes; };
+  if (absorbs_left) d.next[at(0)] = ends.absorbing_left.step(&d.now[at(0)], &d.next[at(0)]).next;
+  if (absorbs_right) d.next[at(n - 1)] = ends.absorbing_right.step(&d.now[at(n - 1)], &d.next[at(n - 1)]).next;
+  return d;
+}
+
+/// u / 2 pi and the force of the substrate on sites from `low` on, at three levels.
+struct ThreeLevels {
+  ThreeLevels(const Share& share, const Displaced& d) : low(d.low) {
+    for (auto* values : {&u_old, &u_now, &u_next, &S_old, &S_now, &S_next}) values->resize(d.wide);
+    const ContactField& changing = share.forces().contacts();
+    const double *a2 = share.forces().a2(low), *a2_old = changing.acts() ? changing.before(low) : a2,
+                 *a2_next = changing.acts() ? changing.next(low) : a2;
+    const PeriodicForce sine = substrate_force(0);
+    const double eps = share.scheme().eps;
+    displacements(sine, eps, a2_old, d.old.data() + lanes, u_old.data(), S_old.data(), d.wide);
+    displacements(sine, eps, a2, d.now.data() + lanes, u_now.data(), S_now.data(), d.wide);
+    displacements(sine, eps, a2_next, d.next.data() + lanes, u_next.data(), S_next.data(), d.wide);
+  }
+
+  std::size_t at(std::size_t site) const { return static_cast<std::size_t>(static_cast<long>(site) - low); }
+  long low;
+  std::vector<double> u_old, u_now, u_next, S_old, S_now, S_next;
+};
+
+}  // namespace
+
+Window window_of(const Share& share, std::size_t from, std::size_t to, double time) {
+  const Problem& p = share.problem();
+  const double dt = share.scheme().dt, h = share.scheme().h, tau = time - share.time();
+  const ThreeLevels v(share, displaced(share, from, to));
+  const double C = p.friction.linear_coefficient().value_or(0);
+  const ContactField& contacts = share.forces().contacts();
+  const auto rate = [&](std::size_t j) { return (v.u_next[j] - v.u_old[j]) / (2 * dt); };
+  const auto stress = [&](const std::vector<double>& u, std::size_t j) {
+    if (p.model == Model::lattice) return (u[j - 1] - u[j + 1]) / (2 * h);
+    return (45 * (u[j - 1] - u[j + 1]) - 9 * (u[j - 2] - u[j + 2]) + (u[j - 3] - u[j + 3])) / (60 * h);
+  };
+  Window window;
+  window.begin = from;
+  for (std::size_t site = from; site < to; ++site) {
+    const std::size_t j = v.at(site);
+    const double acceleration = (v.u_next[j] - 2 * v.u_now[j] + v.u_old[j]) / (dt * dt);
+    // u_ttt from the equation of motion: what the central difference needs to be of fourth order.
+    const double jerk = (rate(j + 1) - 2 * rate(j) + rate(j - 1)) / (h * h) - (v.S_next[j] - v.S_old[j]) / (2 * dt) -
+                        C * acceleration + share.forces().rate(static_cast<long>(site)) / turn;
+    const double velocity = rate(j) - dt * dt / 6 * jerk;
+    const double stress_rate = (stress(v.u_next, j) - stress(v.u_old, j)) / (2 * dt);
+    window.x.push_back(p.grid.x(site));
+    window.u.push_back(turn * (v.u_now[j] + tau * (velocity + tau / 2 * (acceleration + tau / 3 * jerk))));
+    window.velocity.push_back(turn * (velocity + tau * (acceleration + tau / 2 * jerk)));
+    window.stress.push_back(turn * (stress(v.u_now, j) + tau * stress_rate));
+    const double* a2 = share.forces().a2(static_cast<long>(site));
+    window.contact_squared.push_back(a2 == nullptr ? 1 : *a2);
+    window.effective_stress.push_back(contacts.acts() ? *contacts.share(static_cast<long>(site)) : 1);
+  }
+  // A fixed end stays at its displacement: the equation of motion above does not contain the force that holds it.
+  const auto hold = [&](std::size_t site) {
+    window.u[site - from] = turn * v.u_now[v.at(site)];
+    window.velocity[site - from] = 0;
+  };
+  if (from == 0 && share.ends().left == EndCondition::fixed) hold(0);
+  if (to == p.grid.sites && share.ends().right == EndCondition::fixed) hold(to - 1);
+  return window;
+}
+
+}  // namespace slipfront::chain

@@ -1,0 +1,326 @@
+#include "lattice/chain/explicit/forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "lattice/chain/explicit/levels/kernel.hpp"
+#include "math/constants.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::chain {
+namespace {
+
+constexpr double tolerance = 1e-13, infinity = std::numeric_limits<double>::infinity();
+
+/// Chebyshev's node i of n on [-1, 1].
+double node(std::size_t i, std::size_t n) {
+  return std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+}
+
+}  // namespace
+
+void ForcingInTime::at(long level, const Ranks& ranks, std::vector<double>& F) {
+  if (level < begin_ || level >= end_) choose(level, ranks);
+  if (!polynomial_) {
+    for (std::size_t j = 0; j < F.size(); ++j) F[j] = formula(j, static_cast<double>(level));
+    return;
+  }
+  const auto weight = weights(static_cast<double>(level));
+  std::array<const double*, nodes> values;
+  for (std::size_t i = 0; i < nodes; ++i) values[i] = values_[i].data();
+  weighted_sum(weight, values, F.data(), F.size());
+}
+
+/// The weights of the values at the nodes in the value at a level, by the barycentric formula.
+std::array<double, ForcingInTime::nodes> ForcingInTime::weights(double level) const {
+  const double middle = 0.5 * static_cast<double>(begin_ + end_), half = 0.5 * static_cast<double>(end_ - begin_);
+  const double s = (level - middle) / half;
+  std::array<double, nodes> weight{};
+  double sum = 0;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const double away = s - node(i, nodes);
+    if (away == 0) {
+      weight.fill(0);
+      weight[i] = 1;
+      return weight;
+    }
+    const double angle = std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(nodes);
+    weight[i] = (i % 2 == 0 ? 1 : -1) * std::sin(angle) / away;
+    sum += weight[i];
+  }
+  for (double& w : weight) w /= sum;
+  return weight;
+}
+
+/// Takes the longest polynomial that is right. Its levels begin at a multiple of their number, whatever came before.
+void ForcingInTime::choose(long level, const Ranks& ranks) {
+  for (long levels = longest; levels >= shortest; levels /= 2) {
+    begin_ = level / levels * levels;
+    end_ = begin_ + levels;
+    polynomial_ = fits(ranks);
+    if (polynomial_) return;
+  }
+}
+
+void ForcingInTime::fill(std::size_t stride) {
+  const double middle = 0.5 * static_cast<double>(begin_ + end_), half = 0.5 * static_cast<double>(end_ - begin_);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    values_[i].resize(x_.size());
+    for (std::size_t j = 0; j < x_.size(); j += stride) {
+      values_[i][j] = formula(j, middle + half * node(i, nodes));
+      most_ = std::fmax(most_, std::fabs(values_[i][j]));
+    }
+  }
+}
+
+/// The largest difference from the formula at a level, at every 64th site from `first` on.
+double ForcingInTime::largest_error(long level, std::size_t first) const {
+  const auto weight = weights(static_cast<double>(level));
+  double most = 0;
+  for (std::size_t j = first; j < x_.size(); j += apart) {
+    double sum = 0;
+    for (std::size_t i = 0; i < nodes; ++i) sum += weight[i] * values_[i][j];
+    const double error = std::fabs(sum - formula(j, static_cast<double>(level)));
+    if (std::isnan(error)) return infinity;
+    most = std::fmax(most, error);
+  }
+  return most;
+}
+
+bool ForcingInTime::fits(const Ranks& ranks) {
+  const auto most_of_all = [&](double mine) {
+    if (ranks.size() == 1) return mine;
+    double most = 0;
+    for (const double theirs : ranks.joined({mine})) most = std::fmax(most, theirs);
+    return most;
+  };
+  // A formula need not have values after the end of a run.
+  const auto error_of = [](const auto& measure) {
+    try {
+      return measure();
+    } catch (const InputError&) {
+      return infinity;
+    }
+  };
+  most_ = 0;
+  const double at_first_sites = error_of([&] {  // a few calls refuse most polynomials that are too long
+    fill(apart);
+    return largest_error(begin_ + 1, 0);
+  });
+  most_ = most_of_all(most_);
+  if (most_of_all(at_first_sites) > tolerance * most_) return false;
+  const double at_nodes = error_of([&] {
+    fill(1);
+    return 0.0;
+  });
+  most_ = most_of_all(most_);
+  const double error = error_of([&] {
+    double most = at_nodes;
+    for (long level = begin_; level < end_ && most <= tolerance * most_; ++level)
+      most = std::fmax(most, largest_error(level, static_cast<std::size_t>(level) * 29 % apart));
+    return most;
+  });
+  return most_of_all(error) <= tolerance * most_;
+}
+
+namespace {
+
+constexpr std::size_t together = 64;  ///< sites in one pass of the friction loops; a pass with no moving site is cheap
+
+/// a(x)^2 on sites [first, last). It is empty if a is 1 everywhere and does not change.
+std::vector<double> a2_of(const Problem& p, long first, long last) {
+  std::vector<double> a2;
+  const bool changes = p.friction.changes_contacts();
+  if (!p.contact && !changes) return a2;
+  for (long j = first; j < last; ++j) {
+    const double a = p.contact ? p.contact(p.grid.x(folded(p, j))) : 1;
+    a2.push_back(a * a);
+  }
+  return a2;
+}
+
+}  // namespace
+
+Forces::Forces(const Problem& problem, const Scheme& scheme, const Ranks& ranks, long level, std::size_t begin,
+               std::size_t end)
+    : problem_(problem),
+      scheme_(scheme),
+      sine_(substrate_force(0)),
+      dt_(scheme.dt),
+      level_(level),
+      first_(static_cast<long>(begin) - static_cast<long>(margin)),
+      last_(static_cast<long>(end + margin)),
+      nonlinear_(problem.friction.acts() && !problem.friction.linear_coefficient()),
+      variables_(problem.friction.state_size()),
+      state_(variables_ * at(last_)),
+      a2_(a2_of(problem_, first_, last_)),
+      contacts_(problem_, first_, a2_) {
+  for (long j = first_; variables_ > 0 && j < last_; ++j)
+    problem_.friction.start(problem_.grid.x(folded(problem_, j)), 0, {state_of(j), variables_});
+  if (!problem_.forcing) return;
+  F_now_.resize(at(last_));
+  std::vector<double> x;
+  for (long j = first_; j < last_; ++j) x.push_back(problem_.grid.x(folded(problem_, j)));
+  if (problem_.steady_forcing) {
+    for (std::size_t j = 0; j < x.size(); ++j) F_now_[j] = problem_.forcing(x[j], 0);
+    steady_drive_.resize(at(last_));
+    const double* F = F_now_.data() + 1;
+    add_drive(drive_rule(), F, F, F, steady_drive_.data() + 1, at(last_) - 2);
+    return;
+  }
+  forcing_ = ForcingInTime(problem_.forcing, std::move(x), dt_);
+  F_before_ = F_next_ = F_now_;
+  evaluate_forcing(level_ - 1, ranks, F_before_);
+  evaluate_forcing(level_, ranks, F_now_);
+  evaluate_forcing(level_ + 1, ranks, F_next_);
+}
+
+DriveRule Forces::drive_rule() const {
+  const double strength = scheme_.force / turn;
+  return {strength * scheme_.share_next, strength * scheme_.share_before, strength * scheme_.share_now,
+          strength * scheme_.share_neighbour};
+}
+
+void Forces::evaluate_forcing(long level, const Ranks& ranks, std::vector<double>& F) {
+  if (level >= 0) {
+    forcing_.at(level, ranks, F);
+    return;
+  }
+  // F need not be defined before the start, so we extrapolate.
+  std::vector<double> zero = F, one = F, two = F;
+  forcing_.at(0, ranks, zero);
+  forcing_.at(1, ranks, one);
+  forcing_.at(2, ranks, two);
+  for (std::size_t j = 0; j < F.size(); ++j) F[j] = 3 * zero[j] - 3 * one[j] + two[j];
+}
+
+void Forces::age(long first, std::size_t size, const double* now, const double* next, double* states) {
+  double velocity[together];
+  for (std::size_t j = 0; j < size; j += together) {
+    const std::size_t some = std::min(together, size - j);
+    velocities(turn / dt_, now + j, next + j, velocity, some);
+    double* const theirs = states + variables_ * j;
+    if (contacts_.acts())
+      age_contacts(first + static_cast<long>(j), some, velocity, theirs);
+    else
+      problem_.friction.evolution().advance_all(some, friction::Slips::at(velocity), dt_, variables_, theirs);
+  }
+}
+
+void Forces::age_contacts(long first, std::size_t size, const double* velocity, double* theta) {
+  double before[together];
+  std::copy_n(theta, size, before);
+  problem_.friction.evolution().advance_all(size, friction::Slips::at(velocity), dt_, variables_, theta);
+  contacts_.advance(first, dt_, {before, size}, {theta, size});
+}
+
+std::vector<double> Forces::states(std::size_t begin, std::size_t end) const {
+  if (!contacts_.acts()) return {state_of(static_cast<long>(begin)), state_of(static_cast<long>(end))};
+  std::vector<double> all(state_size() * (end - begin));
+  for (std::size_t j = begin; j < end; ++j) {
+    double* const to = all.data() + state_size() * (j - begin);
+    std::copy_n(state_of(static_cast<long>(j)), variables_, to);
+    contacts_.save(j, to + variables_);
+  }
+  return all;
+}
+
+void Forces::set_states(std::size_t begin, const std::vector<double>& states) {
+  for (std::size_t i = 0; i < states.size(); i += state_size()) {
+    const std::size_t site = begin + i / state_size();
+    std::copy_n(states.data() + i, variables_, state_of(static_cast<long>(site)));
+    if (contacts_.acts()) contacts_.resume(site, states[i], states.data() + i + variables_);
+  }
+}
+
+void Forces::exchange(const Ranks& ranks) {
+  if (contacts_.acts()) contacts_.exchange(ranks);
+  if (variables_ > 0) fill_margins(problem_, ranks, first_, variables_, state_);
+}
+
+void Forces::exchange_all(const Ranks& ranks) {
+  exchange(ranks);
+  if (contacts_.acts()) contacts_.exchange_all(ranks);
+}
+
+void Forces::proceed(const Ranks& ranks) {
+  ++level_;
+  if (contacts_.acts()) contacts_.proceed();
+  if (steady()) return;
+  F_before_.swap(F_now_);
+  F_now_.swap(F_next_);
+  evaluate_forcing(level_ + 1, ranks, F_next_);
+}
+
+void Forces::contact_coefficients(long offset, std::size_t begin, std::size_t end, double* coefficients) const {
+  if (!a2_.empty()) chain::contact_coefficients(scheme_.contact, a2(offset), coefficients, begin, end);
+}
+
+void Forces::next_coefficients(long offset, std::size_t begin, std::size_t end, double* coefficients) const {
+  chain::contact_coefficients(scheme_.contact, contacts_.next(offset), coefficients, begin, end);
+}
+
+void Forces::begin_level(const EndConditions& ends, const LevelSites& s, Outflow& outflow) const {
+  // The second loop needs y of one more site on each side that is no end.
+  const std::size_t begin = (is_end(ends.left) ? s.left : s.left - 1) / lanes * lanes;
+  const std::size_t end = ((is_end(ends.right) ? s.right : s.right + 1) + lanes - 1) / lanes * lanes;
+  if (s.coefficients != nullptr)
+    local_part_with_coefficients(scheme_.rule, s.coefficients, s.now, s.before, s.next, s.y, begin, end, s.step);
+  else
+    local_part(scheme_.rule, s.now, s.before, s.next, s.y, begin, end, s.step);
+  const auto index = [&s](long site) { return static_cast<std::size_t>(site - s.offset); };
+  const std::size_t first = index(0), last = index(static_cast<long>(problem_.grid.sites) - 1);
+  const EndSites bare = before_neighbours(ends, s.next, first, last);
+  add_neighbours(scheme_.rule.spread, s.y, s.next, begin, end);
+  mend_ends(ends, bare, scheme_.rule.spread, s.now, s.y, s.next, first, last, outflow);
+}
+
+void Forces::add_load_and_friction(const EndConditions& ends, const LevelSites& s) const {
+  const auto given = [](EndCondition side) { return side == EndCondition::fixed || side == EndCondition::absorbing; };
+  const std::size_t from = given(ends.left) ? s.left + 1 : s.left, to = given(ends.right) ? s.right - 1 : s.right;
+  if (!F_now_.empty()) {
+    const long first = s.offset + static_cast<long>(from);
+    if (steady())
+      add_steady_drive(steady_drive_.data() + at(first), s.next + from, to - from);
+    else
+      add_drive(drive_rule(), F_before(first), F_now(first), F_next(first), s.next + from, to - from);
+  }
+  if (!nonlinear_) return;
+  if (s.applied != nullptr) s.applied[s.left] = s.applied[s.right - 1] = 0;  // ends that are given have none
+  add_friction(s, from, to);
+}
+
+void Forces::add_friction(const LevelSites& s, std::size_t begin, std::size_t end) const {
+  const friction::Friction& f = problem_.friction;
+  if (const auto strength = f.constant_strength()) {
+    shorten_steps(dt_ * dt_ * *strength / turn, s.now + begin, s.next + begin, end - begin);
+    return;
+  }
+  // Friction is centred on the level if that is stable. A law that is steep at rest acts on the half step after the
+  // level instead. It can then stop a site, but not reverse its velocity.
+  const bool centred = !f.steep_at_rest();
+  const double time = centred ? 2 * dt_ : dt_, weight = dt_ * dt_ / time;
+  double free[together], speed[together];
+  for (std::size_t j = begin; j < end; j += together) {
+    const std::size_t some = std::min(together, end - j);
+    const double* from = (centred ? s.before : s.now) + j;
+    double* force = s.applied == nullptr ? nullptr : s.applied + j;
+    if (!free_speeds(turn / time, from, s.next + j, free, some)) {
+      if (force != nullptr) std::fill_n(force, some, 0.0);
+      std::copy_n(from, some, s.next + j);
+      continue;
+    }
+    const friction::LocalStates states = s.states.from(j);
+    if (contacts_.have_pressure())
+      f.loops().speeds_after_under(some, contacts_.share(s.offset + static_cast<long>(j)), free, weight, states, speed);
+    else
+      f.loops().speeds_after(some, free, weight, states, speed);
+    take_speeds(turn / time, 1 / weight, from, free, speed, s.next + j, force, some);
+  }
+}
+
+}  // namespace slipfront::chain

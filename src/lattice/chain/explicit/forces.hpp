@@ -1,0 +1,166 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "lattice/chain/explicit/contact_field.hpp"
+#include "lattice/chain/explicit/levels/scheme.hpp"
+#include "lattice/chain/explicit/levels/slab.hpp"
+#include "system/ranks.hpp"
+
+namespace slipfront::chain {
+
+/// A forcing F(x, t) at the sites of a rank, level by level. A formula takes a hundred times as long as a site, so
+/// where F is smooth in time it is the polynomial through its values at a few times, over as many levels as that is
+/// right to 1e-13 of its largest value. Each of these levels is compared with the formula at every 64th site, at others
+/// at the next level. Where no polynomial is right, the formula is called at each level.
+class ForcingInTime {
+ public:
+  ForcingInTime() = default;
+  /// `x` are the positions of the sites.
+  ForcingInTime(std::function<double(double x, double t)> forcing, std::vector<double> x, double dt)
+      : forcing_(std::move(forcing)), x_(std::move(x)), dt_(dt) {}
+
+  /// (all) Sets F to its values at a level >= 0. They do not depend on the levels that were asked for before.
+  void at(long level, const Ranks& ranks, std::vector<double>& F);
+
+ private:
+  static constexpr std::size_t nodes = 8;
+  static constexpr long longest = 1024, shortest = 64;  ///< levels of a polynomial
+  static constexpr std::size_t apart = 64;              ///< sites between those that are compared
+
+  double formula(std::size_t site, double level) const { return forcing_(x_[site], level * dt_); }
+  std::array<double, nodes> weights(double level) const;
+  void choose(long level, const Ranks& ranks);
+  /// (all) Whether the polynomial over the levels from begin_ to end_ is right.
+  bool fits(const Ranks& ranks);
+  double largest_error(long level, std::size_t first) const;
+  void fill(std::size_t stride);
+
+  std::function<double(double, double)> forcing_;
+  std::vector<double> x_;
+  double dt_ = 0;
+  long begin_ = 0, end_ = 0;  ///< levels of the present polynomial, or of the present calls of the formula
+  bool polynomial_ = false;
+  double most_ = 0;  ///< largest |F| at the nodes, of all ranks
+  std::array<std::vector<double>, nodes> values_;
+};
+
+/// Sites [left, right) whose next level is computed, as indices of arrays that begin at site `offset` of the chain. The
+/// arrays have a vector more on either side of them.
+struct LevelSites {
+  long offset;
+  std::size_t left, right;
+  const double *before, *now;
+  double *next, *y;                      ///< `next` may be `before`, unless friction has an implicit speed
+  const double* coefficients = nullptr;  ///< contact_coefficients, if a varies
+  friction::LocalStates states = {};
+  double* applied = nullptr;  ///< gets the friction force on each site, if it is neither linear nor constant
+  StepOfU step = {};
+};
+
+/// All forces on the sites of a rank.
+class Forces {
+ public:
+  /// The forces on sites [begin, end) and on some more on either side. These continue around a periodic chain, and are
+  /// reflected at the ends of other chains.
+  Forces(const Problem& problem, const Scheme& scheme, const Ranks& ranks, long level, std::size_t begin,
+         std::size_t end);
+
+  /// Whether one level must be complete, on all sites, before the next one begins.
+  bool level_by_level() const { return !steady() || contacts_.acts(); }
+  /// Whether friction has an implicit speed, so that a next level needs the two before it.
+  bool implicit_speed() const { return nonlinear_ && !problem_.friction.constant_strength(); }
+  /// Whether a differs from 1 or changes.
+  bool has_contact() const { return !a2_.empty(); }
+  /// a(x)^2 from site j on; null if it is 1 everywhere.
+  const double* a2(long j) const {
+    return contacts_.acts() ? contacts_.now(j) : a2_.empty() ? nullptr : a2_.data() + at(j);
+  }
+  /// Contacts that change with the state of friction.
+  const ContactField& contacts() const { return contacts_; }
+  /// Whether F is absent or does not change.
+  bool steady() const { return F_next_.empty(); }
+  /// Arrays of F from site j on, at the present level, the level before and the next one. They are null without
+  /// forcing.
+  const double* F_now(long j) const { return F_now_.empty() ? nullptr : F_now_.data() + at(j); }
+  const double* F_before(long j) const { return steady() ? F_now(j) : F_before_.data() + at(j); }
+  const double* F_next(long j) const { return steady() ? F_now(j) : F_next_.data() + at(j); }
+  /// F at site j at the present level, and its rate of change. Both are 0 without forcing.
+  double now(long j) const { return F_now_.empty() ? 0.0 : F_now_[at(j)]; }
+  double rate(long j) const { return steady() ? 0.0 : (F_next_[at(j)] - F_before_[at(j)]) / (2 * dt_); }
+
+  /// Computes the next level but for the load and friction that is not linear, which `add_load_and_friction` adds.
+  void begin_level(const EndConditions& ends, const LevelSites& sites, Outflow& outflow) const;
+  void add_load_and_friction(const EndConditions& ends, const LevelSites& sites) const;
+  /// The coefficients for indices [begin, end) of arrays that begin at site `offset`, if a varies; and those of the
+  /// next level, if contacts change.
+  void contact_coefficients(long offset, std::size_t begin, std::size_t end, double* coefficients) const;
+  void next_coefficients(long offset, std::size_t begin, std::size_t end, double* coefficients) const;
+  /// Computes u from z, both in turns, on indices [begin, end).
+  void displacements(const double* coefficients, const double* z, double* u, std::size_t begin, std::size_t end) const {
+    chain::displacements(scheme_.rule.f, scheme_.eps, coefficients, z, u, begin, end);
+  }
+  double eps() const { return scheme_.eps; }
+  /// Energies, divided by the spacing, that contacts give to the substrate at `size` sites from site j on. The step D
+  /// ends at u.
+  void energies_of_contacts(long j, std::size_t size, const double* u, const double* D, double* energies) const {
+    chain::energies_of_contacts(sine_, contacts_.now(j), contacts_.next(j), u, D, energies, size);
+  }
+  /// (all) Gets what a level needs from the sites next to those of this rank.
+  void exchange(const Ranks& ranks);
+  /// (all) Gets everything of these sites, which windows need.
+  void exchange_all(const Ranks& ranks);
+  /// (all) Moves to the next level.
+  void proceed(const Ranks& ranks);
+  /// The state variables of sites from j on, `variables` for each.
+  double* state_of(long j) { return state_.data() + variables_ * at(j); }
+  const double* state_of(long j) const { return state_.data() + variables_ * at(j); }
+  std::size_t variables() const { return variables_; }
+  /// Advances the state variables of `size` sites from site `first` on by the step from `now` to `next`.
+  void age(long first, std::size_t size, const double* now, const double* next, double* states);
+  /// The state variables of sites [begin, end), site by site. Most laws have none.
+  std::vector<double> states(std::size_t begin, std::size_t end) const;
+  void set_states(std::size_t begin, const std::vector<double>& states);
+  /// How many numbers the state of a site has.
+  std::size_t state_size() const { return variables_ + (contacts_.acts() ? ContactField::columns : 0); }
+  /// Call this when the states of all sites are set.
+  void resumed() {
+    if (contacts_.acts()) contacts_.resumed();
+  }
+
+  /// The friction force on site j at velocity u_t.
+  double friction(long j, double velocity) const {
+    return (contacts_.acts() ? *contacts_.share(j) : 1.0) * problem_.friction.force(velocity, state(j));
+  }
+
+ private:
+  friction::LocalState state(long j) const {
+    return variables_ == 0 ? friction::LocalState{} : friction::LocalState{state_of(j), variables_};
+  }
+  std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
+  DriveRule drive_rule() const;
+  void evaluate_forcing(long level, const Ranks& ranks, std::vector<double>& F);
+  void add_friction(const LevelSites& sites, std::size_t begin, std::size_t end) const;
+  void age_contacts(long first, std::size_t size, const double* velocity, double* states);
+
+  Problem problem_;
+  Scheme scheme_;
+  PeriodicForce sine_;
+  double dt_;
+  long level_;
+  long first_, last_;          ///< the arrays hold sites [first_, last_)
+  bool nonlinear_;             ///< there is friction other than C w, which the scheme itself contains
+  std::size_t variables_;      ///< number of state variables of the friction law
+  std::vector<double> state_;  ///< their values at each site
+  std::vector<double> a2_;     ///< a^2; at t = 0 if it changes
+  ContactField contacts_;
+  ForcingInTime forcing_;
+  std::vector<double> F_before_, F_now_, F_next_;  ///< only F_now_ is filled if F does not depend on t
+  std::vector<double> steady_drive_;               ///< and then its effect on each level
+};
+
+}  // namespace slipfront::chain

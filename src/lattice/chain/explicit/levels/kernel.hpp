@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/model/periodic_force.hpp"
+
+/// The loops over sites in which a chain spends its time. They are vector code that is chosen at run time (AVX-512,
+/// AVX2 or plain). Every site goes through the same operations, wherever it is in a vector, so tiles and threads do not
+/// change the results.
+namespace slipfront::chain {
+
+/// The coefficients of one step from z to z at the next level, which takes two loops:
+///     S = f(z)    y = z - coupled S    next = keep z - force S - before z_old    next += spread (y_left + y_right)
+struct LevelRule {
+  PeriodicForce f;
+  double coupled = 0, keep = 0, force = 0, before = 0, spread = 0;
+};
+
+inline constexpr std::size_t lanes = 8;  ///< ranges are multiples of this; arrays are aligned to this number of doubles
+
+/// u at the level that the first loop starts from, if the step since the level before is wanted: D gets the step in
+/// radians, and u (turns) its value at this level.
+struct StepOfU {
+  double eps = 0;
+  double *u = nullptr, *D = nullptr;
+};
+
+/// The first loop, over [begin, end). `old` is the level before, and may be the same array as `next`.
+void local_part(const LevelRule& rule, const double* now, const double* old, double* next, double* y, std::size_t begin,
+                std::size_t end, const StepOfU& step = {});
+/// The coefficients of the force on sites [begin, end), for the loops below. A vector of sites has its first
+/// coefficients next to each other, then its second ones, and so on.
+void contact_coefficients(const ContactForce& f, const double* a2, double* coefficients, std::size_t begin,
+                          std::size_t end);
+/// The first loop for a substrate of strength a(x)^2. It ignores rule.f, and costs hardly more than a constant a.
+void local_part_with_coefficients(const LevelRule& rule, const double* coefficients, const double* now,
+                                  const double* old, double* next, double* y, std::size_t begin, std::size_t end,
+                                  const StepOfU& step = {});
+/// Computes u and S from z, with Newton's method. `a2` is null if it is 1 everywhere.
+void displacements(const PeriodicForce& sine, double eps, const double* a2, const double* z, double* u, double* S,
+                   std::size_t size);
+/// Computes only u = z - eps S on sites [begin, end), with the polynomial of the force; `coefficients` as above, or
+/// null if a is 1 everywhere.
+void displacements(const PeriodicForce& f, double eps, const double* coefficients, const double* z, double* u,
+                   std::size_t begin, std::size_t end);
+/// Computes the step D from u to u_next, in radians, and sets u to u_next.
+void take_steps(const double* u_next, double* u, double* D, std::size_t size);
+/// Computes the second difference of z over levels, in radians.
+void second_differences(const double* before, const double* now, const double* next, double* B, std::size_t size);
+
+/// The second loop. It reads y from begin - 1 to end.
+void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end);
+
+/// Adds to z at the next level the effect of a force F, which is shared among the five points of the diamond.
+struct DriveRule {
+  double next = 0, before = 0, now = 0, neighbour = 0;  ///< coefficients, in turns
+};
+void add_drive(const DriveRule& rule, const double* F_before, const double* F_now, const double* F_next, double* next,
+               std::size_t size);
+/// Adds `drive`, which is that effect of a force that does not change.
+void add_steady_drive(const double* drive, double* next, std::size_t size);
+/// Applies Coulomb friction: shortens each step from `now` to `next` by `most`, but not below zero. Friction can stop a
+/// site, but not reverse its motion. NaN stays NaN.
+void shorten_steps(double most, const double* now, double* next, std::size_t size);
+
+/// Sets `free` to |next - from| times `per_step`, and returns whether any of them is not 0. A step counts as 0 if it is
+/// a rounding error of z. Ahead of fronts, where z is smaller, it counts as 0 if it is a rounding error of a thousandth
+/// of a turn.
+bool free_speeds(double per_step, const double* from, const double* next, double* free, std::size_t size);
+/// Sets `next` so that the speed is `speed`, which friction has left of `free`. If `force` is not null, it gets the
+/// difference times `per_weight`, with the sign of the step. NaN stays NaN.
+void take_speeds(double per_step, double per_weight, const double* from, const double* free, const double* speed,
+                 double* next, double* force, std::size_t size);
+/// Sets `velocity` to (next - now) times `per_step`.
+void velocities(double per_step, const double* now, const double* next, double* velocity, std::size_t size);
+/// Consecutive blocks of sites: block i has those from begins[i] to begins[i + 1], counted from begins[0] on. Its sum
+/// is that of `lanes` numbers, one for each lane of a vector, from sums + i stride on.
+struct BlockSums {
+  const std::size_t* begins;
+  std::size_t blocks;
+  double* sums;
+  std::size_t stride;
+};
+/// Add `factor` times a, |a| or the products of a and b to the sums of their blocks. The order depends only on the
+/// blocks.
+void add_values(const BlockSums& to, double factor, const double* a);
+void add_products(const BlockSums& to, double factor, const double* a, const double* b);
+/// Adds `factor` times D^2 + (D - D_before)^2 / 12 of each site (WorkMeter).
+void add_squares(const BlockSums& to, double factor, const double* D, const double* D_before);
+void add_absolutes(const BlockSums& to, double factor, const double* a);
+/// The work of a force F in a step of each site (WorkMeter).
+void works_of_force(const double* F_before, const double* F_now, const double* F_next, const double* D, const double* B,
+                    double* work, std::size_t size);
+/// Energy that contacts give to the substrate at each site when a^2 changes from a2 to a2_next. The step D (radians)
+/// ends at `u` (turns).
+void energies_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next, const double* u,
+                          const double* D, double* energy, std::size_t size);
+
+/// The sum of eight arrays with these weights.
+void weighted_sum(const std::array<double, 8>& weights, const std::array<const double*, 8>& values, double* sum,
+                  std::size_t size);
+
+/// Whether every |z| is small enough for the range reduction. It is false if any z is NaN.
+bool bounded(const double* z, std::size_t size);
+
+}  // namespace slipfront::chain

@@ -1,0 +1,290 @@
+#include "lattice/chain/explicit/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "lattice/chain/explicit/levels/kernel.hpp"
+
+namespace slipfront::chain {
+
+WorkMeter::WorkMeter(const Problem& p, const Scheme& s, const Blocks& blocks, std::size_t first_block,
+                     std::size_t end_block)
+    : sums(sums_of_block(p) * (end_block - first_block), 0.0),
+      problem_(&p),
+      dt_(s.dt),
+      blocks_(blocks),
+      first_block_(first_block),
+      sums_of_block_(sums_of_block(p)) {
+  if (!p.forcing && !p.friction.acts()) return;
+  for (std::size_t b = first_block; b <= end_block; ++b) begins_.push_back(blocks.begin(b));
+  needs_two_steps_ = p.friction.acts() && p.friction.linear_coefficient();
+  needs_B_ = p.forcing && !p.steady_forcing;
+}
+
+template <class AddTo>
+void WorkMeter::add(std::size_t which, std::size_t begin, std::size_t end, double strength, const AddTo& add_to) {
+  const std::size_t first = blocks_.of(begin) - first_block_, after = blocks_.of(end - 1) + 1 - first_block_;
+  const BlockSums to{&begins_[first], after - first, &sums[sums_of_block_ * first + lanes * which], sums_of_block_};
+  const double factor = strength * problem_->grid.spacing;
+  add_to(to, factor, 0);
+  if (problem_->boundary.periodic) return;
+  // Half a spacing belongs to the last site at an end.
+  constexpr std::size_t one[] = {0, 1};
+  if (begin == 0) add_to({one, 1, to.sums, 0}, -factor / 2, 0);
+  if (end == problem_->grid.sites)
+    add_to({one, 1, to.sums + to.stride * (to.blocks - 1), 0}, -factor / 2, end - 1 - begin);
+}
+
+void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, const Steps& s) {
+  constexpr std::size_t supplied = 0, by_contacts = 2;
+  const long site = static_cast<long>(begin);
+  const auto add_scratch = [&](std::size_t which) {
+    add(which, begin, end, 1,
+        [&](const BlockSums& to, double factor, std::size_t at) { add_values(to, factor, s.scratch + at); });
+  };
+  if (problem_->forcing && forces.steady())
+    add(supplied, begin, end, 1, [&, F = forces.F_now(site)](const BlockSums& to, double factor, std::size_t at) {
+      add_products(to, factor, F + at, s.D + at);
+    });
+  if (problem_->forcing && !forces.steady()) {
+    works_of_force(forces.F_before(site), forces.F_now(site), forces.F_next(site), s.D, s.B, s.scratch, end - begin);
+    add_scratch(supplied);
+  }
+  if (forces.contacts().acts()) {
+    forces.energies_of_contacts(site, end - begin, s.u, s.D, s.scratch);
+    add_scratch(by_contacts);
+  }
+  if (problem_->friction.acts()) add_friction(begin, end, s);
+}
+
+void WorkMeter::add_friction(std::size_t begin, std::size_t end, const Steps& s) {
+  constexpr std::size_t dissipated = 1;
+  const auto add_product = [&](double strength, const double* a, const double* b) {
+    add(dissipated, begin, end, strength,
+        [=](const BlockSums& to, double factor, std::size_t at) { add_products(to, factor, a + at, b + at); });
+  };
+  const friction::Friction& friction = problem_->friction;
+  if (const auto C = friction.linear_coefficient()) {
+    add(dissipated, begin, end, *C / dt_, [&](const BlockSums& to, double factor, std::size_t at) {
+      add_squares(to, factor, s.D + at, s.D_before + at);
+    });
+  } else if (const auto f = friction.constant_strength()) {
+    add(dissipated, begin, end, *f,
+        [&](const BlockSums& to, double factor, std::size_t at) { add_absolutes(to, factor, s.D + at); });
+  } else if (friction.steep_at_rest()) {
+    add_product(1, s.applied, s.D);
+  } else {
+    const std::size_t size = end - begin;
+    for (std::size_t j = 0; j < size; ++j) s.scratch[j] = std::fabs(s.D[j]) / dt_;
+    friction.loops().strengths(size, s.scratch, s.states, s.further);
+    add_product(dt_, s.scratch, s.further);
+  }
+}
+
+namespace {
+
+constexpr std::size_t pad = lanes;       // the second loop reads y one site outside the tile and its halos
+constexpr std::size_t own = pad + halo;  // index of the first site of a tile
+
+void copy(const double* from, double* to, std::size_t count) { std::memcpy(to, from, count * sizeof(double)); }
+
+std::size_t whole_vectors(std::size_t size) { return (size + lanes - 1) / lanes * lanes; }
+
+std::size_t room_for(const std::vector<std::size_t>& cuts) {
+  std::size_t widest = 0;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) widest = std::max(widest, cuts[i + 1] - cuts[i]);
+  return whole_vectors(widest) + 2 * halo + 2 * pad;
+}
+
+}  // namespace
+
+Sweep::Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size_t> cuts)
+    : slab_(slab),
+      forces_(forces),
+      meter_(meter),
+      cuts_(std::move(cuts)),
+      room_(room_for(cuts_)),
+      arrays_{Aligned(room_), Aligned(room_), Aligned(room_)},
+      before_(arrays_[0].data()),
+      now_(arrays_[1].data()),
+      spare_(arrays_[2].data()),
+      y_(room_),
+      coefficients_(forces.has_contact() ? PeriodicForce::terms * room_ : 0),
+      states_(forces.variables() * room_),
+      applied_(forces.implicit_speed() ? room_ : 0),
+      u_(meter.active() ? room_ : 0),
+      steps_{Aligned(meter.active() ? room_ : 0), Aligned(meter.needs_two_steps() ? room_ : 0)},
+      B_(meter.needs_B() ? room_ : 0),
+      D_(steps_[0].data()),
+      D_before_(meter.needs_two_steps() ? steps_[1].data() : D_),
+      left_now_(halo),
+      left_old_(halo),
+      left_states_(forces.variables() * halo),
+      right_states_(forces.variables() * halo) {}
+
+void Sweep::exchange_states() {
+  const std::size_t count = forces_.variables() * halo;
+  if (count == 0) return;
+  const long begin = static_cast<long>(slab_.begin());
+  copy(forces_.state_of(begin - static_cast<long>(halo)), left_states_.data(), count);
+  copy(forces_.state_of(begin + static_cast<long>(slab_.size())), right_states_.data(), count);
+}
+
+Sweep::Tile Sweep::tile(std::size_t piece) const {
+  const std::size_t from = cuts_[piece] - slab_.begin(), width = cuts_[piece + 1] - cuts_[piece];
+  Tile t{from, width, static_cast<long>(cuts_[piece]) - static_cast<long>(own), slab_.ends()};
+  if (from > 0) t.ends.left = EndCondition::joined;
+  if (from + width < slab_.size()) t.ends.right = EndCondition::joined;
+  return t;
+}
+
+void Sweep::advance(std::size_t count) {
+  copy(slab_.now() - halo, left_now_.data(), halo);
+  copy(slab_.old() - halo, left_old_.data(), halo);
+  for (std::size_t piece = 0; piece + 1 < cuts_.size(); ++piece) {
+    const Tile t = tile(piece);
+    load(t);
+    advance(t, count);
+    store(t);
+  }
+}
+
+/// Copies the sites of a tile and of its halos, and keeps those left of the next tile, which this one will change.
+void Sweep::load(const Tile& t) {
+  const double *const now = slab_.now() + t.from, *const old = slab_.old() + t.from;
+  copy(left_now_.data(), now_ + pad, halo);
+  copy(left_old_.data(), before_ + pad, halo);
+  copy(now, now_ + own, t.width + halo);
+  copy(old, before_ + own, t.width + halo);
+  if (t.width >= halo) {
+    copy(now + t.width - halo, left_now_.data(), halo);
+    copy(old + t.width - halo, left_old_.data(), halo);
+  }
+  if (forces_.variables() > 0) load_states(t);
+}
+
+void Sweep::load_states(const Tile& t) {
+  const std::size_t each = forces_.variables(), here = std::min(t.width + halo, slab_.size() - t.from);
+  const double* const states = forces_.state_of(static_cast<long>(slab_.begin() + t.from));
+  copy(left_states_.data(), states_.data() + each * pad, each * halo);
+  copy(states, states_.data() + each * own, each * here);
+  copy(right_states_.data(), states_.data() + each * (own + here), each * (t.width + halo - here));
+  if (t.width >= halo) copy(states + each * (t.width - halo), left_states_.data(), each * halo);
+}
+
+void Sweep::store(const Tile& t) {
+  copy(now_ + own, slab_.now() + t.from, t.width);
+  copy(before_ + own, slab_.old() + t.from, t.width);
+  const std::size_t each = forces_.variables();
+  if (each > 0)
+    copy(states_.data() + each * own, forces_.state_of(static_cast<long>(slab_.begin() + t.from)), each * t.width);
+}
+
+/// Asks the processor to load some sites of the next tile into its cache while it computes this one.
+void Sweep::prefetch(const Tile& t, std::size_t level, std::size_t count) const {
+#if defined(__GNUC__)
+  const std::size_t next = t.from + t.width;
+  if (next >= slab_.size()) return;
+  const std::size_t share = whole_vectors(std::min(t.width, slab_.size() - next) / count + 1);
+  const std::size_t begin = next + halo + level * share;
+  for (std::size_t j = begin; j < begin + share; j += lanes) {
+    __builtin_prefetch(slab_.now() + j, 1, 2);
+    __builtin_prefetch(slab_.old() + j, 1, 2);
+  }
+#endif
+}
+
+/// The sites to compute at a level after which `rest` levels follow.
+LevelSites Sweep::sites_at(const Tile& t, std::size_t rest) {
+  const bool keeps_before = forces_.implicit_speed() || meter_.needs_B();
+  LevelSites s{.offset = t.offset,
+               .left = is_end(t.ends.left) ? own : own - rest,
+               .right = is_end(t.ends.right) ? own + t.width : own + t.width + rest,
+               .before = before_,
+               .now = now_,
+               .next = keeps_before ? spare_ : before_,
+               .y = y_.data()};
+  if (forces_.has_contact()) s.coefficients = coefficients_.data();
+  if (forces_.variables() > 0) s.states = {states_.data(), forces_.variables()};
+  if (forces_.implicit_speed()) s.applied = applied_.data();
+  return s;
+}
+
+void Sweep::advance(const Tile& t, std::size_t count) {
+  const std::size_t last = own + t.width;
+  forces_.contact_coefficients(t.offset, pad, whole_vectors(last + halo), coefficients_.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    prefetch(t, i, count);
+    LevelSites s = sites_at(t, count - 1 - i);
+    if (i == 0) {
+      begin_steps(s, last);
+    } else if (meter_.active()) {
+      std::swap(D_, D_before_);
+      s.step = {forces_.eps(), u_.data(), D_};
+    }
+    forces_.begin_level(t.ends, s, slab_.outflow);
+    if (i > 0) finish_step(t, s);
+    forces_.add_load_and_friction(t.ends, s);
+    if (meter_.needs_B()) second_differences(before_ + own, now_ + own, s.next + own, B_.data() + own, t.width);
+    if (s.next == before_) {
+      std::swap(before_, now_);
+    } else {
+      spare_ = std::exchange(before_, std::exchange(now_, spare_));
+    }
+  }
+  last_step(t);
+}
+
+/// Computes u, and the step before if it is needed.
+void Sweep::begin_steps(const LevelSites& s, std::size_t last) {
+  if (!meter_.active()) return;
+  if (!meter_.needs_two_steps()) {
+    forces_.displacements(s.coefficients, now_, u_.data(), own, whole_vectors(last));
+    return;
+  }
+  forces_.displacements(s.coefficients, before_, u_.data(), own, whole_vectors(last));
+  forces_.displacements(s.coefficients, now_, y_.data(), own, whole_vectors(last));
+  take_steps(y_.data() + own, u_.data() + own, D_ + own, last - own);
+}
+
+/// Measures the work of the step to this level, and then advances the state variables by it.
+void Sweep::finish_step(const Tile& t, const LevelSites& s) {
+  if (meter_.active()) {
+    const std::size_t first = slab_.begin() + t.from;
+    const friction::LocalStates states = s.states.values == nullptr ? s.states : s.states.from(own);
+    meter_.add(forces_, first, first + t.width,
+               {.D = D_ + own,
+                .D_before = D_before_ + own,
+                .B = B_.data() + own,
+                .u = u_.data() + own,
+                .applied = applied_.data() + own,
+                .states = states,
+                .scratch = y_.data() + own,
+                .further = applied_.data() + own});
+  }
+  if (forces_.variables() > 0 && !forces_.contacts().acts())
+    forces_.age(t.offset + static_cast<long>(s.left), s.right - s.left, s.before + s.left, s.now + s.left,
+                states_.data() + forces_.variables() * s.left);
+}
+
+/// Finishes the step to the last level. Contacts that change must be advanced first, because the displacement at the
+/// next level depends on them. Friction has acted already.
+void Sweep::last_step(const Tile& t) {
+  const std::size_t last = own + t.width;
+  const LevelSites s = sites_at(t, 0);
+  if (forces_.contacts().acts()) {
+    forces_.age(t.offset + static_cast<long>(own), t.width, before_ + own, now_ + own,
+                states_.data() + forces_.variables() * own);
+    forces_.next_coefficients(t.offset, own, whole_vectors(last), coefficients_.data());
+  }
+  if (meter_.active()) {
+    forces_.displacements(s.coefficients, now_, y_.data(), own, whole_vectors(last));
+    std::swap(D_, D_before_);
+    take_steps(y_.data() + own, u_.data() + own, D_ + own, t.width);
+  }
+  finish_step(t, s);
+}
+
+}  // namespace slipfront::chain

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "lattice/chain/explicit/forces.hpp"
+#include "lattice/chain/explicit/levels/slab.hpp"
+#include "lattice/chain/model/blocks.hpp"
+
+namespace slipfront::chain {
+
+/// Measures the work of the forcing and of friction on the sites of one rank, for each level and block. It has the
+/// fourth order of the scheme. For a step from u to u + D, with the second difference B over levels, the work follows
+/// from
+///     int F u_t dt = F_mean D + (F_next - F_before) B / 12,     int u_t^2 dt = (D^2 + B^2 / 12) / dt,
+/// up to terms that cancel from step to step. B is that of u for friction. For a force that changes, that of z is
+/// enough.
+class WorkMeter {
+ public:
+  WorkMeter(const Problem& problem, const Scheme& scheme, const Blocks& blocks, std::size_t first_block,
+            std::size_t end_block);
+
+  /// Whether there is any work to measure.
+  bool active() const { return !begins_.empty(); }
+  /// Whether D of the step before is needed, and B.
+  bool needs_two_steps() const { return needs_two_steps_; }
+  bool needs_B() const { return needs_B_; }
+
+  /// A step of consecutive sites.
+  struct Steps {
+    const double *D, *D_before, *B, *u;  ///< D_before is of the step before; u (turns) at the end of the step
+    const double* applied;               ///< friction that is neither linear nor constant
+    friction::LocalStates states;
+    double *scratch, *further;  ///< room for as many numbers; `further` may be `applied`
+  };
+  /// Measures a step of sites [begin, end), which are whole blocks, from the level of the forces.
+  void add(const Forces& forces, std::size_t begin, std::size_t end, const Steps& steps);
+
+  /// The energies of each block of this rank, one block after the other: those supplied, dissipated, and, if contacts
+  /// change, given to the substrate by them; each as a sum of `lanes` numbers.
+  std::vector<double> sums;
+  static std::size_t sums_of_block(const Problem& p) { return lanes * kinds(p); }
+  static std::size_t kinds(const Problem& p) { return p.friction.changes_contacts() ? 3 : 2; }
+
+ private:
+  void add_friction(std::size_t begin, std::size_t end, const Steps& steps);
+  /// Adds to the energies `which`. add_to(sums, factor, at) must add `factor` times the works on sites from begin + at
+  /// on.
+  template <class AddTo>
+  void add(std::size_t which, std::size_t begin, std::size_t end, double strength, const AddTo& add_to);
+
+  const Problem* problem_;
+  double dt_;
+  Blocks blocks_;
+  std::size_t first_block_, sums_of_block_;
+  bool needs_two_steps_ = false, needs_B_ = false;
+  std::vector<std::size_t> begins_;  ///< first sites of the blocks of this rank, and the end of the last block
+};
+
+/// Advances the sites of one slab, tile by tile. A tile stays in the innermost cache while it goes through many levels.
+/// To the left and right it also computes sites of its neighbours, one fewer at each level. These do not depend on the
+/// tiles, so that neither do the results.
+class Sweep {
+ public:
+  /// The tiles begin and end at the sites `cuts`. If there is work to measure, they must be whole blocks. Each has at
+  /// least as many sites as a halo, unless it is the only one.
+  Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size_t> cuts);
+
+  /// Gets the state variables of the sites next to the slab, which another thread may change while this one advances.
+  void exchange_states();
+  /// Advances by `count` levels, at most a halo.
+  void advance(std::size_t count);
+
+ private:
+  /// One tile during an advance, as indices of its arrays.
+  struct Tile {
+    std::size_t from, width;  ///< its first site in the slab, and its number of sites
+    long offset;              ///< the site at index 0
+    EndConditions ends;
+  };
+  Tile tile(std::size_t piece) const;
+  void load(const Tile& tile);
+  void load_states(const Tile& tile);
+  void store(const Tile& tile);
+  void advance(const Tile& tile, std::size_t count);
+  LevelSites sites_at(const Tile& tile, std::size_t rest);
+  void begin_steps(const LevelSites& sites, std::size_t last);
+  void finish_step(const Tile& tile, const LevelSites& sites);
+  void last_step(const Tile& tile);
+  void prefetch(const Tile& tile, std::size_t level, std::size_t count) const;
+
+  Slab& slab_;
+  Forces& forces_;
+  WorkMeter& meter_;
+  std::vector<std::size_t> cuts_;
+  std::size_t room_;
+  Aligned arrays_[3];
+  double *before_, *now_, *spare_;  ///< the levels, which take turns in these arrays
+  Aligned y_, coefficients_, states_, applied_, u_, steps_[2], B_;
+  double *D_, *D_before_;        ///< the last two steps, which take turns in `steps_`
+  Aligned left_now_, left_old_;  ///< the sites left of the next tile before this one changes them
+  Aligned left_states_, right_states_;
+};
+
+}  // namespace slipfront::chain

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "lattice/chain/model/blocks.hpp"
+#include "slipfront/lattice/chain/chain.hpp"
+#include "slipfront/lattice/chain/problem.hpp"
+#include "slipfront/text/output/snapshot.hpp"
+#include "system/ranks.hpp"
+
+namespace slipfront::chain {
+
+using output::Dislocation;
+
+/// (all) All dislocations at `time` (Sites::window), from left to right; sixth-order interpolation between sites.
+std::vector<Dislocation> dislocations(const Sites& chain, double time);
+std::vector<Dislocation> dislocations(const Sites& chain);
+
+/// (all) u of all sites at `time`. Only rank 0 gets them.
+std::vector<double> displacements(const Sites& chain, double time);
+
+/// (all) Calls measure(begin, end) for this rank's sites in order, some 16 384 at a time, in ranges that depend only
+/// on the number of sites, and done() after every block.
+template <class Measure, class Done>
+void for_own_sites(const Sites& chain, const Measure& measure, const Done& done) {
+  constexpr std::size_t range = 16384;
+  const Ranks& ranks = chain.ranks();
+  const Blocks blocks{chain.problem().grid.sites};
+  chain.exchange();
+  for (std::size_t block = blocks.first_of(ranks.rank(), ranks.size());
+       block < blocks.first_of(ranks.rank() + 1, ranks.size()); ++block) {
+    const std::size_t end = blocks.begin(block + 1);
+    for (std::size_t begin = blocks.begin(block); begin < end; begin += range)
+      measure(begin, std::min(begin + range, end));
+    done();
+  }
+}
+
+/// Lagrange interpolation of v through the (up to) six sites around r (counted in sites of v).
+double interpolated(const std::vector<double>& v, double r);
+
+/// Integral of the interpolant over [from, to], in sites.
+double integral(const std::vector<double>& v, double from, double to);
+
+/// \throws InputError: a window that is not on the chain, or has no width.
+[[noreturn]] void refuse_window(const Grid& grid, double x, double width);
+
+/// Averages over [x - width / 2, x + width / 2].
+struct Average {
+  double x, width;  ///< the window
+  double u;         ///< displacement; slip is its increase since t = 0
+  double velocity;  ///< u_t
+  double stress;    ///< -u_x, from the displacements at the ends of the window
+};
+
+/// (all) At `time`, no more than a step away. The window should hold whole spacings 2 pi / k of the train; else one
+/// dislocation more or less shows. \throws InputError for a window outside the chain or of no width.
+Average average(const Sites& chain, double x, double width, double time);
+
+/// An average that smooths out single dislocations.
+struct SmoothAverage {
+  double velocity;  ///< u_t
+  double stress;    ///< -u_x
+  double energy;    ///< u_t^2 / 2 + u_x^2 / 2 + a^2 (1 - cos u)
+};
+
+/// (all) Averages around x with the weight 1 + cos(2 pi (x' - x) / width). The window has this width, and is cut at the
+/// ends of the chain. `time` may be at most a step away. In a uniform average at a small scale, one dislocation more or
+/// less would change the velocity much. With this weight, the ripple of the train falls with the cube of the number of
+/// dislocations in the window. \throws InputError for a window without width or outside the chain.
+SmoothAverage smooth_average(const Sites& chain, double x, double width, double time);
+/// Computes such an average from sites that the caller has already, for many averages at once. \throws InputError
+/// unless `sites` extends the window by two sites on either side.
+SmoothAverage smooth_average(const Sites& chain, const Window& sites, double x, double width);
+
+/// A smooth average over the best of several windows.
+struct BestAverage {
+  SmoothAverage average;
+  double width;           ///< width of the window
+  double velocity_error;  ///< NaN if the chain has room for one width only
+  double stress_error;
+};
+
+/// (all) Averages around x over windows from `least` to `most` wide, each sqrt(2) times as wide as the one before, and
+/// returns the one whose velocity changes least if the window is up to twice as wide or narrow. A narrow window shows
+/// how trains that pass through each other beat, a wide one shows the shape of the pulse. The errors are 1.5 times
+/// these changes. `time` may be at most a step away. \throws InputError as smooth_average does, for the window `least`.
+BestAverage best_average(const Sites& chain, double x, double least, double most, double time);
+
+/// Energy density of the uniform train with this stress and slip velocity. If an average has more energy, the excess is
+/// in phonons, or comes from a front in the window. `contact` is a(x): the train is uniform in its local units.
+double energy_of_train(double stress, double velocity, double contact = 1);
+
+}  // namespace slipfront::chain

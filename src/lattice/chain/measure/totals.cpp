@@ -1,0 +1,81 @@
+#include "lattice/chain/measure/totals.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "lattice/chain/measure/averages.hpp"
+#include "math/constants.hpp"
+
+namespace slipfront::chain {
+namespace {
+
+/// The sums among the totals, as so many numbers in a row.
+constexpr std::size_t sums = 5;
+std::array<double*, sums> summed(Totals& t, double& dislocations) {
+  return {&t.kinetic, &t.elastic, &t.substrate, &t.momentum, &dislocations};
+}
+
+/// Adds sites [begin, end), seen in a window that has two more on either side where there are.
+void add(const Sites& chain, const Window& w, std::size_t begin, std::size_t end, Totals& t, double& dislocations) {
+  const Problem& p = chain.problem();
+  const double h = p.grid.spacing;
+  const std::size_t n = p.grid.sites, low = w.begin;
+  const auto u = [&](std::size_t j) { return w.u[j - low]; };
+  for (std::size_t j = begin; j < end; ++j) {
+    const double weight = (j == 0 || j + 1 == n) && !p.boundary.periodic ? h / 2 : h;
+    const double velocity = w.velocity[j - low], cosine = std::cos(u(j));
+    t.kinetic += weight * velocity * velocity / 2;
+    t.substrate += weight * w.contact_squared[j - low] * (1 - cosine);
+    t.momentum += weight * velocity * w.stress[j - low];
+    t.elastic += h * elastic_energy(u, j, n, h, p.model);
+    if (j + 1 >= n) continue;
+    dislocations += std::fabs(std::floor(u(j + 1) / turn - 0.5) - std::floor(u(j) / turn - 0.5));
+    t.steepest = std::fmax(t.steepest, std::fabs(u(j + 1) - u(j)));
+  }
+}
+
+/// Adds the interval of a ring from its last site, where u is `last`, to its first.
+void close_ring(const Problem& p, double first, double last, Totals& t, double& dislocations) {
+  const double rise = first - turn * static_cast<double>(p.boundary.charge) - last;
+  t.elastic += rise * rise / (2 * p.grid.spacing);
+  t.steepest = std::fmax(t.steepest, std::fabs(rise));
+  dislocations += std::fabs(std::floor((last + rise) / turn - 0.5) - std::floor(last / turn - 0.5));
+  t.charge = static_cast<double>(p.boundary.charge);
+}
+
+}  // namespace
+
+Totals totals(const Sites& chain) {
+  const Problem& p = chain.problem();
+  const std::size_t n = p.grid.sites;
+  Totals block, t;
+  double found = 0, all_found = 0;
+  std::vector<double> blocks;  // block by block; added up in order whatever the ranks
+  for_own_sites(
+      chain,
+      [&](std::size_t begin, std::size_t end) {
+        const Window w = chain.own_window(begin < 2 ? 0 : begin - 2, std::min(end + 2, n), chain.time());
+        add(chain, w, begin, end, block, found);
+      },
+      [&] {
+        for (double* sum : summed(block, found)) blocks.push_back(std::exchange(*sum, 0.0));
+      });
+  blocks = chain.ranks().joined(blocks);
+  for (const double steepest : chain.ranks().joined({block.steepest})) t.steepest = std::fmax(t.steepest, steepest);
+  for (std::size_t i = 0; i < blocks.size(); ++i) *summed(t, all_found)[i % sums] += blocks[i];
+  const double first = chain.window(0, 1).u[0], last = chain.window(n - 1, n).u[0];
+  t.time = chain.time();
+  t.charge = (first - last) / turn;
+  if (p.boundary.periodic) close_ring(p, first, last, t, all_found);
+  const SpringEnergy springs = chain.spring_energy();
+  t.elastic = springs.between_sites.value_or(t.elastic);
+  t.loading = springs.loading;
+  t.dislocations = std::lround(std::fmin(all_found, 9e18));  // at least this number, of a chain that has diverged
+  return t;
+}
+
+}  // namespace slipfront::chain

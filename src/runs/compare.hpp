@@ -1,0 +1,83 @@
+#pragma once
+/// \file
+/// The computations and results of `slipfront compare`: the closed form, the pulse solver and the chain, for one
+/// scenario.
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfront/averages/pulse/run.hpp"
+#include "slipfront/lattice/chain/run.hpp"
+#include "slipfront/scenario/scenario.hpp"
+#include "slipfront/text/output/quantities.hpp"
+
+namespace slipfront::run {
+
+/// One level: a model with its settings and its results.
+struct Level {
+  std::string name;  ///< "closed-form", "pulse-consistent", "pulse-paper", "chain-1000"
+  std::string closure = {};
+  std::optional<double> scale = {};          ///< only for a chain
+  std::optional<double> window = {};         ///< only for a chain: averaging window of the slip at x = 0
+  std::optional<double> smooth_window = {};  ///< only for a chain: averaging window of velocities and stresses
+  std::vector<output::Snapshot> snapshots = {};
+  std::vector<std::string> warnings = {};  ///< warnings of the run, one sentence each
+  double wall_seconds = 0;
+};
+
+/// The checked problems of all levels.
+struct Comparison {
+  std::string file;  ///< file of the scenario
+  pulse::Problem problem = {};
+  output::Schedule schedule = {};
+  std::optional<Level> exact = {};  ///< the closed form, if there is one
+  std::vector<chain::ScaledProblem> chains = {};
+  std::size_t levels() const { return chains.size() + (exact ? 3 : 2); }
+};
+
+/// Sets up all levels and checks them before any run. `scales` are those of the chains; if they are empty, they are the
+/// scale of the scenario, or 100, 300 and 1000. \throws InputError for an error in any level, and for a scale that is
+/// not > 0 or given twice.
+Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales);
+
+/// Begins each level and takes no step, to find what a run refuses at its start. \throws InputError like a run.
+void begin_levels(const Comparison& comparison);
+
+/// Runs the levels in order and appends each to `levels` when it is finished. It calls `next` before each run.
+/// `after_step` (level, its time, its number of steps) may stop all runs by returning true. Returns whether the end was
+/// reached. \throws NumericsError that names the level.
+bool run_levels(const Comparison& comparison, int threads, std::vector<Level>& levels,
+                const std::function<void()>& next,
+                const std::function<bool(const std::string& level, double time, long steps)>& after_step);
+
+/// The closed form on the output grid: the exact solution of the Riemann problem (Eqs. 8-10 if the right side is
+/// empty). There is none with friction, forcing or a contact profile, without a step, or if waves reach an end of the
+/// domain.
+std::optional<Level> closed_form(const scenario::Scenario& scenario, const output::Schedule& schedule);
+
+/// The numbers for which the levels are compared at the end of the run.
+const std::vector<output::Scalar>& compared_numbers();
+
+/// The level that the others are compared with: the pulse solver with closure "consistent". Null if it was not run.
+const Level* reference_level(const std::vector<Level>& levels);
+
+/// Dependence on scale of the difference between the chain and the reference. NaN if it is unknown.
+struct Trend {
+  /// Negative slope of ln |difference| against ln scale, by least squares. It is 1 if the difference falls as 1 /
+  /// scale. It needs two scales.
+  double exponent = std::numeric_limits<double>::quiet_NaN();
+  /// Extrapolation to infinite scale from the two largest scales, with a difference that falls as 1 / scale. NaN if the
+  /// exponent is negative, because then the difference does not fall.
+  double extrapolated = std::numeric_limits<double>::quiet_NaN();
+  double difference = std::numeric_limits<double>::quiet_NaN();  ///< `extrapolated` less the reference
+};
+Trend trend_of(const std::vector<Level>& levels, const output::Scalar& number);
+
+/// Notes and warnings that the reader of these levels needs, one line each.
+std::vector<std::string> notes_on(const scenario::Scenario& scenario, const std::vector<Level>& levels);
+
+}  // namespace slipfront::run

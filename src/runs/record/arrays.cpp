@@ -1,0 +1,314 @@
+#include "runs/record/arrays.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "math/constants.hpp"
+#include "math/digits.hpp"
+#include "runs/record/run_file.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/lattice/plane/quantities.hpp"
+#include "slipfront/lattice/plane/source_parameters.hpp"
+#include "slipfront/text/output/dislocation_paths.hpp"
+#include "slipfront/text/output/quantities.hpp"
+#include "system/machine.hpp"
+
+namespace slipfront::record::cf {
+namespace {
+
+using netcdf::Writer;
+
+constexpr std::string_view paper = "Gershenzon, Bambakidis and Skinner (2015)";
+constexpr std::string_view paper_title =
+    "How does dissipation affect the transition from static to dynamic macroscopic friction?";
+
+void describe(Writer& file, int variable, const Description& about, const RunMetadata& metadata) {
+  if (!metadata.units || about.dimensional_unit.empty()) {
+    file.attribute(variable, "long_name", about.long_name);
+    file.attribute(variable, "units", "1");
+    file.attribute(variable, "dimensional_unit", about.dimensional_unit);
+  } else {
+    const medium::UnitInSi unit = metadata.units->of(about.dimensional_unit);
+    file.attribute(variable, "long_name", long_name_of(about, unit));
+    file.attribute(variable, "units", unit.name);
+    file.attribute(variable, "scale_factor", unit.value);
+    file.attribute(variable, "unit_of_model", about.dimensional_unit);
+  }
+  file.attribute(variable, "references", reference_of(about));
+}
+
+std::string comment_of(const RunMetadata& metadata) {
+  if (!metadata.units)
+    return "All values are dimensionless. Multiply them by dimensional_unit, where A is the contact ratio, b the "
+           "asperity spacing, c the speed of strain waves, mu the shear modulus and nu the Poisson ratio.";
+  return "All values are in SI units, by the constants in the attribute medium. A file stores them in the unit of the "
+         "model, with a scale_factor (CF, section 8.1) that readers of NetCDF apply.";
+}
+
+}  // namespace
+
+int reals(Writer& file, const Description& about, const std::vector<int>& dimensions, const RunMetadata& metadata) {
+  const int variable = file.reals(std::string(about.name), dimensions);
+  describe(file, variable, about, metadata);
+  return variable;
+}
+
+void describe_file(Writer& file, const RunMetadata& metadata, const char* format, bool finished) {
+  for (const auto& [name, value] : file_attributes(metadata, format))
+    file.attribute(Writer::global, name, clean_text(value, netcdf::longest_text));
+  file.attribute(Writer::global, "finished", finished ? 1 : 0);
+}
+
+}  // namespace slipfront::record::cf
+
+namespace slipfront::record {
+
+std::string long_name_of(const Description& about, const medium::UnitInSi& unit) {
+  return std::string(about.long_name) + (unit.between_faces ? ", between the faces" : "");
+}
+
+std::string reference_of(const Description& about) {
+  return std::string(cf::paper) + ", " + std::string(about.reference);
+}
+
+std::vector<std::pair<std::string, std::string>> file_attributes(const RunMetadata& metadata,
+                                                                 const std::string& format) {
+  std::string warnings;
+  for (const std::string& warning : metadata.warnings) warnings += (warnings.empty() ? "" : "\n") + warning;
+  std::vector<std::pair<std::string, std::string>> all = {
+      {"Conventions", "CF-1.10"},
+      {"title", metadata.title},
+      {"source", "slipfront " + metadata.version},
+      {"history", metadata.command_line},
+      {"references", std::string(cf::paper) + ", " + std::string(cf::paper_title)},
+      {"comment", cf::comment_of(metadata)},
+      {"version", metadata.version},
+      {"warnings", warnings},
+      {"scenario", metadata.scenario_text},
+      {"slipfront_format", format},
+  };
+  if (metadata.units) {
+    all.emplace_back("unit_system", "SI");
+    all.emplace_back("medium", metadata.units->in_words());
+  }
+  return all;
+}
+
+namespace {
+
+using Dimensions = std::vector<Array::Dimension>;
+using output::Snapshot;
+
+/// The values of every snapshot, level by level. `put` appends those of one.
+template <class Put>
+std::vector<double> over_snapshots(const Levels& levels, const Put& put) {
+  std::vector<double> values;
+  for (const std::vector<Snapshot>* level : levels)
+    for (const Snapshot& snapshot : *level) put(values, snapshot, level->front());
+  return values;
+}
+
+void add_axes(std::vector<Array>& all, const std::vector<double>& times, const std::vector<double>& edges) {
+  std::vector<double> centres, bounds;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    centres.push_back(std::midpoint(edges[i], edges[i + 1]));
+    bounds.insert(bounds.end(), {edges[i], edges[i + 1]});
+  }
+  const std::size_t cells = centres.size();
+  all.push_back(coordinate(output::time_axis, times));
+  all.push_back(
+      coordinate({"x", "position along the interface, centre of the cell", "b / A", "Eq. 3"}, std::move(centres), "X"));
+  const Description about = {"x_bounds", "ends of the cell", "b / A", "Eq. 3"};
+  all.back().attributes.emplace_back("bounds", about.name);
+  all.push_back({about, {{"x", cells}, {"ends", 2}}, [bounds] { return bounds; }, {}});
+}
+
+/// The slip events, and their arrivals at the positions that the scenario asks for.
+void add_events(std::vector<Array>& all, const RunMetadata& metadata) {
+  const std::vector<output::SlipEvent>& events = metadata.events;
+  if (events.empty()) return;
+  for (const output::SlipEventColumn& column : output::slip_event_columns())
+    all.push_back({output::description_of(column, metadata.pulled_end),
+                   {{"event", events.size()}},
+                   values_of(events, column.value),
+                   {}});
+  const output::FrontRecords& fronts = metadata.fronts;
+  if (fronts.events.empty()) return;
+  all.push_back(coordinate(output::front_position, fronts.x));
+  for (const MemberArray<output::FrontRecord>& column : output::front_columns())
+    all.push_back({column.about,
+                   {{"event", events.size()}, {output::front_position.name, fronts.x.size()}},
+                   values_of(fronts.events, column.values),
+                   {}});
+}
+
+void add_displacement(std::vector<Array>& all, const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+  if (metadata.sites.empty()) return;
+  all.push_back(coordinate(layout::site, metadata.sites));
+  all.push_back({layout::displacement,
+                 {{"time", snapshots.size()}, {layout::site.name, metadata.sites.size()}},
+                 values_of(snapshots, &Snapshot::displacement),
+                 {}});
+}
+
+/// \throws NumericsError if the table of all dislocations at all times is too large.
+void require_memory(const output::DislocationPaths& paths) {
+  const double bytes = 2 * sizeof(double) * static_cast<double>(paths.signs.size() * paths.numbers.size());
+  if (bytes > usable_memory() / 4)
+    throw NumericsError("the paths of " + std::to_string(paths.signs.size()) + " dislocations at " +
+                        std::to_string(paths.numbers.size()) + " times need " + digits(bytes / 1e9, 3) +
+                        " GB; fewer outputs are needed");
+}
+
+void add_dislocations(std::vector<Array>& all, const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+  const auto paths =
+      std::make_shared<const output::DislocationPaths>(output::dislocation_paths(snapshots, metadata.paths));
+  const std::size_t count = paths->signs.size();
+  if (count == 0) return;
+  require_memory(*paths);
+  std::vector<double> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 1.0);
+  all.push_back(coordinate(layout::dislocation, std::move(numbers)));
+  const Array::Dimension dislocation{layout::dislocation.name, count};
+  all.push_back({layout::dislocation_sign,
+                 {dislocation},
+                 [paths] { return std::vector<double>(paths->signs.begin(), paths->signs.end()); },
+                 {}});
+  const auto add = [&](const Description& about, double (*get)(const output::Dislocation&)) {
+    all.push_back({about,
+                   {{"time", snapshots.size()}, dislocation},
+                   [&snapshots, paths, count, get] {
+                     std::vector<double> values(snapshots.size() * count, none);
+                     for (std::size_t i = 0; i < snapshots.size(); ++i)
+                       for (std::size_t j = 0; j < snapshots[i].dislocations.size(); ++j)
+                         values[i * count + paths->numbers[i][j]] = get(snapshots[i].dislocations[j]);
+                     return values;
+                   },
+                   {}});
+  };
+  add(layout::dislocation_position, [](const output::Dislocation& d) { return d.x; });
+  add(layout::dislocation_level, [](const output::Dislocation& d) { return static_cast<double>(d.level); });
+}
+
+}  // namespace
+
+Array coordinate(const Description& about, std::vector<double> values, std::string_view axis) {
+  Array array{about, {{about.name, values.size()}}, {}, {}};
+  array.values = [kept = std::move(values)] { return kept; };
+  if (!axis.empty()) array.attributes.emplace_back("axis", axis);
+  return array;
+}
+
+std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+  return arrays_of(metadata, values_of(snapshots, &Snapshot::time)(), {&snapshots}, false);
+}
+
+std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<double>& times, const Levels& levels,
+                             bool by_level) {
+  std::vector<Array> all;
+  add_axes(all, times, metadata.x_edges);
+  Dimensions over_time;
+  if (by_level) over_time.push_back({"level", levels.size()});
+  over_time.push_back({"time", times.size()});
+  Dimensions over_x = over_time;
+  over_x.push_back({"x", metadata.x_edges.size() - 1});
+  for (const FieldVariable* field : chosen_fields(metadata.variables))
+    all.push_back({field->about,
+                   over_x,
+                   [levels, field] {
+                     return over_snapshots(levels, [&](auto& values, const Snapshot& s, const Snapshot& first) {
+                       const std::vector<double> row = field->of(s, first);
+                       values.insert(values.end(), row.begin(), row.end());
+                     });
+                   },
+                   {}});
+  for (const output::Scalar& scalar : output::scalars())
+    all.push_back({scalar.about,
+                   over_time,
+                   [levels, get = scalar.get] {
+                     return over_snapshots(
+                         levels, [&](auto& values, const Snapshot& s, const Snapshot&) { values.push_back(get(s)); });
+                   },
+                   {}});
+  add_events(all, metadata);
+  if (by_level) return all;
+  add_displacement(all, metadata, *levels.front());
+  add_dislocations(all, metadata, *levels.front());
+  return all;
+}
+
+Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const RunMetadata& metadata) {
+  Defined defined;
+  for (const Array& array : arrays) {
+    std::vector<int> ids;
+    for (const Array::Dimension& dimension : array.dimensions) {
+      const auto [found, is_new] = defined.dimensions.try_emplace(dimension.name, 0);
+      if (is_new) found->second = file.dimension(std::string(dimension.name), dimension.size);
+      ids.push_back(found->second);
+    }
+    const int variable = cf::reals(file, array.about, ids, metadata);
+    for (const auto& [name, value] : array.attributes) file.attribute(variable, std::string(name), value);
+    if (!array.about.reason.empty()) file.fill_value(variable, none);
+    defined.variables.push_back(variable);
+  }
+  return defined;
+}
+
+void write(netcdf::Writer& file, const Defined& defined, const std::vector<Array>& arrays) {
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+    if (const std::vector<double> values = arrays[i].values(); !values.empty())
+      file.write_all(defined.variables[i], values);
+}
+
+namespace {
+
+/// Centres of the cells between two ends.
+std::vector<double> centres(double from, double to, int cells) {
+  std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(cells));
+  for (int i = 0; i < cells; ++i) all.push_back(from + (to - from) * (i + 0.5) / cells);
+  return all;
+}
+
+}  // namespace
+
+std::vector<Array> arrays_of(const plane::Run& run) {
+  std::vector<Array> all;
+  const plane::Problem& p = run.solver().problem();
+  const plane::Schedule& schedule = run.schedule();
+  const double ratio = schedule.wave_speed_ratio;
+  const std::vector<plane::Field>& snapshots = run.snapshots();
+  all.push_back(coordinate(output::time_axis, values_of(snapshots, &plane::Field::time)()));
+  all.push_back(coordinate(plane::y_axis, centres(ratio * p.bottom, ratio * p.top, schedule.ny), "Y"));
+  all.push_back(coordinate(plane::x_axis, centres(p.left, p.right, schedule.nx), "X"));
+  const std::vector<Array::Dimension> cells = {all[1].dimensions.front(), all[2].dimensions.front()};
+  for (const MemberArray<plane::Field>& field : plane::field_arrays())
+    all.push_back(
+        {field.about, {all[0].dimensions.front(), cells[0], cells[1]}, values_of(snapshots, field.values), {}});
+  const auto maps = std::make_shared<const plane::Maps>(run.maps());
+  for (const MemberArray<plane::Maps>& map : plane::map_arrays())
+    all.push_back({description_of(map, schedule), cells, [maps, member = map.values] { return *maps.*member; }, {}});
+  for (const plane::SeriesNumber& number : plane::series_numbers())
+    all.push_back({number.about,
+                   {{plane::series_numbers().front().about.name, run.series().size()}},
+                   values_of(run.series(), number.get),
+                   {}});
+  const std::vector<double> frequencies = plane::spectrum_frequencies(run.series());
+  all.push_back(coordinate(plane::frequency_axis, frequencies));
+  all.push_back({plane::moment_rate_spectrum,
+                 all.back().dimensions,
+                 [&run, frequencies] { return plane::spectrum(run.series(), frequencies); },
+                 {}});
+  if (!schedule.lines) return all;
+  const auto lines = std::make_shared<const plane::LinePoints>(plane::line_points(snapshots));
+  for (const MemberArray<plane::LinePoints>& line : plane::line_arrays())
+    all.push_back(
+        {line.about, {{"line_point", lines->x.size()}}, [lines, member = line.values] { return *lines.*member; }, {}});
+  return all;
+}
+
+}  // namespace slipfront::record

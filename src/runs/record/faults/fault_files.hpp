@@ -1,0 +1,23 @@
+#pragma once
+/// \file
+/// Writes a kinematic source and its static stress drop as grids, for those who model dynamic ruptures.
+/// Writes a kinematic source in the Standard Rupture Format, version 2.0 (Graves 2014).
+
+#include <string>
+
+#include "events/finite_fault/source/source.hpp"
+
+namespace slipfront::record {
+
+/// Writes a NetCDF file completely or not at all. Its variables have the dimensions segment, down_dip and along_strike.
+/// Segments with fewer subfaults are padded with NaN. \throws FileError with path and reason.
+void write_fault_grid(const std::string& path, const finite_fault::FiniteSource& source, const std::string& version,
+                      const std::string& history);
+
+/// The text of the file. Its comments hold `history` and the notes of the source.
+std::string srf_text(const finite_fault::FiniteSource& source, const std::string& history);
+
+/// Writes it completely or not at all. \throws FileError with path and reason.
+void write_srf(const std::string& path, const finite_fault::FiniteSource& source, const std::string& history);
+
+}  // namespace slipfront::record

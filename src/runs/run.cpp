@@ -1,0 +1,196 @@
+#include "runs/run.hpp"
+
+#include <utility>
+
+#include "runs/errors.hpp"
+#include "runs/fault.hpp"
+#include "runs/record/run_file.hpp"
+#include "slipfront/scenario/problem.hpp"
+#include "slipfront/scenario/scenario.hpp"
+#include "system/files/whole_file.hpp"
+
+namespace slipfront::run {
+void require_inputs_kept(const scenario::Scenario& scenario, const std::string& output) {
+  if (!output.empty()) record::require_other_file(output, scenario::files_of(scenario));
+}
+
+void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si) {
+  scenario.results_in.reset();
+  if (!in_si.value_or(scenario.in_si)) return;
+  try {
+    scenario.results_in.emplace(scenario.medium);
+    for (std::string& warning : scenario.warnings) warning = scenario::in_results(warning, scenario.results_in);
+  } catch (const InputError& error) {
+    if (in_si)
+      throw InputError(
+          {.file = scenario.file, .problem = error.complaint().problem, .allowed = error.complaint().allowed});
+    scenario.warnings.push_back("the results are in the units of the model: " + error.complaint().problem);
+    return;
+  }
+  const std::string& assumed = scenario.results_in->assumed();
+  if (!assumed.empty() && !scenario.in_si)  // else the reader of the scenario has warned
+    scenario.warnings.push_back("SI units were converted with " + assumed + ", which [medium] does not give");
+}
+
+record::RunMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
+                                const std::vector<double>& x_edges, const std::vector<double>& scales) {
+  std::vector<std::string> variables = scenario.output.variables;
+  if (!scenario.pulse.many_trains || command != "pulse")
+    std::erase(variables, "trains");
+  else if (variables.empty())
+    variables = record::pulse_variables();
+  // The history is that of the run, not of how it was interrupted and resumed: equal runs make equal files.
+  return {.title = scenario.title,
+          .scenario_text = scenario.text,
+          .version = SLIPFRONT_VERSION,
+          .command_line = scenario::command_line(scenario, command, scales),
+          .x_edges = x_edges,
+          .variables = std::move(variables),
+          .warnings = scenario.warnings,
+          .pulled_end = scenario.loading.acts() && scenario.loading.where != chain::Pulled::everywhere,
+          .units = scenario.results_in};
+}
+
+namespace {
+
+void plan_line(Plan& plan) {
+  const scenario::Scenario& s = plan.scenario;
+  if (plan.solver == scenario::SolverKind::pulse) {
+    plan.pulse = scenario::pulse_problem(s);
+    plan.on_line = scenario::pulse_schedule(s, plan.pulse);
+    plan.need = scenario::estimate_of(s, plan.pulse);
+    return;
+  }
+  plan.chain = scenario::chain_problem(s);
+  plan.on_line = scenario::pulse_schedule(s, scenario::stated_problem(s));
+  plan.on_line.displacement = s.output.displacement;
+  plan.on_line.dislocations = s.output.dislocations;
+  scenario::require_memory(s, plan.chain, plan.share_of_machine);
+  plan.need = scenario::estimate_of(s, plan.chain);
+}
+
+/// A run from its beginning, or from where the checkpoint left it with these `snapshots`.
+template <class Run, class Snapshots, class... Arguments>
+std::unique_ptr<Run> begun(const Options& options, Snapshots record::Checkpoint::*snapshots, Arguments&&... arguments) {
+  if (!options.checkpoint) return std::make_unique<Run>(std::forward<Arguments>(arguments)...);
+  const record::Checkpoint& saved = *options.checkpoint;
+  return std::make_unique<Run>(std::forward<Arguments>(arguments)..., saved.solver_state, saved.*snapshots);
+}
+
+/// The part of a result that is equal for all runs along a line.
+template <class Run>
+Result on_line(std::unique_ptr<Run> owned, const Plan& plan, const char* command) {
+  const Run& run = *owned;
+  return {
+      .run = std::move(owned),
+      .metadata = metadata_of(plan.scenario, command, plan.on_line.x_edges),
+      .arrays = [&run](const record::RunMetadata& metadata) { return record::arrays_of(metadata, run.snapshots()); },
+      .write =
+          [&run](const std::string& path, const record::RunMetadata& metadata, const std::string& state) {
+            record::write_pulse(path, metadata, run.snapshots(), state, run.finished());
+          }};
+}
+
+Result begin_pulse(const Plan& plan, const Options& options) {
+  auto owned = begun<pulse::Run>(options, &record::Checkpoint::snapshots, plan.pulse, plan.on_line);
+  const pulse::Run& run = *owned;
+  Result result = on_line(std::move(owned), plan, "pulse");
+  result.numbers = [&run](const output::Spent& spent) { return rows_of({run, spent.wall}); };
+  result.add_errors = [&run, &plan](std::vector<Row>& summary, const std::function<bool()>& interrupted) {
+    return add_pulse_errors(run, summary, plan, interrupted);
+  };
+  return result;
+}
+
+Result begin_chain(const Plan& plan, const Options& options) {
+  const chain::Execution execution{.threads = options.threads, .ranks = options.ranks};
+  auto owned = begun<chain::Run>(options, &record::Checkpoint::snapshots, plan.chain, plan.on_line, execution);
+  const chain::Run& run = *owned;
+  Result result = on_line(std::move(owned), plan, "chain");
+  if (plan.on_line.displacement) result.metadata.sites = run.sites();
+  result.metadata.paths = run.path_settings();
+  result.describe = [&run](record::RunMetadata& metadata) {
+    metadata.events = run.events();
+    metadata.fronts = run.fronts();
+  };
+  result.numbers = [&run](const output::Spent& spent) {
+    const chain::Averages averages = run.averages();
+    return rows_of({run, run.balance(), averages, spent});
+  };
+  return result;
+}
+
+Result begin_plane(const Plan& plan, const Options& options) {
+  const scenario::Scenario& s = plan.scenario;
+  auto owned = begun<plane::Run>(options, &record::Checkpoint::fields,
+                                 scenario::plane_solver(s, plan.solver, options.threads, options.ranks), plan.on_plane);
+  const plane::Run& run = *owned;
+  Result result{
+      .run = std::move(owned),
+      .metadata = metadata_of(s, plan.solver == scenario::SolverKind::plane ? "plane" : "plane --direct", {})};
+  result.arrays = [&run](const record::RunMetadata&) { return record::arrays_of(run); };
+  result.write = [&run](const std::string& path, const record::RunMetadata& metadata, const std::string& state) {
+    record::write_run(path, metadata, record::arrays_of(run), state, run.finished());
+  };
+  result.numbers = [&run, &plan](const output::Spent& spent) {
+    std::vector<Row> rows = rows_of(run, plan.scenario.plane->probes, spent.wall);
+    if (plan.model)
+      for (Row& row : compare_with_model(*plan.model, plan.scenario, run)) rows.push_back(std::move(row));
+    return rows;
+  };
+  if (!options.ranks && !plan.model)  // processes that share a run do not share coarser ones
+    result.add_errors = [&plan, threads = options.threads](std::vector<Row>& summary,
+                                                           const std::function<bool()>& interrupted) {
+      add_plane_errors(summary, plan, interrupted, threads);
+      return std::vector<std::string>{};
+    };
+  return result;
+}
+
+}  // namespace
+
+Plan plan_of(scenario::SolverKind solver, scenario::Scenario s, double share_of_machine) {
+  Plan plan{.solver = solver, .scenario = std::move(s), .share_of_machine = share_of_machine};
+  if (!plan.is_on_plane()) {
+    scenario::with_units(plan.scenario,
+                         [&] { scenario::with_keys(solver, plan.scenario.file, [&] { plan_line(plan); }); });
+    return plan;
+  }
+  plan.on_plane = scenario::plane_schedule(plan.scenario, solver);
+  plan.need.disk = plane::memory_of_results(plan.on_plane) + (1 << 16);
+  return plan;
+}
+
+Result begin(const Plan& plan, const Options& options) {
+  return scenario::with_units(plan.scenario, [&] {
+    if (plan.is_on_plane()) return begin_plane(plan, options);
+    return scenario::with_keys(plan.solver, plan.scenario.file, [&] {
+      return plan.solver == scenario::SolverKind::pulse ? begin_pulse(plan, options) : begin_chain(plan, options);
+    });
+  });
+}
+
+bool compare(const scenario::Scenario& scenario, const Comparison& comparison, const std::vector<double>& scales,
+             const record::Output& output, int threads, std::vector<Level>& levels,
+             const std::function<void()>& next_level,
+             const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
+  const auto write = [&](bool finished) {
+    if (!output.wanted()) return;
+    std::vector<record::ComparedLevel> compared;
+    compared.reserve(levels.size());
+    for (const Level& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
+    record::write_comparison(finished ? output.finished() : output.unfinished(),
+                             metadata_of(scenario, "compare", comparison.schedule.x_edges, scales),
+                             comparison.schedule.times, compared, finished);
+    if (finished) output.clear();
+  };
+  const auto next = [&] {
+    next_level();
+    write(false);
+  };
+  const bool reached = run_levels(comparison, threads, levels, next, after_step);
+  write(reached);
+  return reached;
+}
+
+}  // namespace slipfront::run

@@ -1,0 +1,24 @@
+#include "runs/tables.hpp"
+
+#include "events/catalogue/fault_model.hpp"
+#include "events/finite_fault/on_plane.hpp"
+#include "runs/fault.hpp"
+#include "runs/record/netcdf/table_file.hpp"
+#include "slipfront/error.hpp"
+#include "system/files/whole_file.hpp"
+
+namespace slipfront::run {
+
+std::vector<std::vector<double>> read_table(const std::string& path, const std::vector<std::string>& columns) {
+  if (!path.ends_with(".fsp")) return record::read_table(path, columns);
+  if (columns != std::vector<std::string>{"x", "y", "slip"})
+    throw InputError({.file = path,
+                      .problem = "a finite-fault model has no such columns",
+                      .allowed = "initial.profile = \"grid\" on a plane"});
+  const catalogue::FaultModel model = catalogue::read_fault_model(record::read_text(path), path);
+  const finite_fault::OnPlane fault =
+      finite_fault::on_plane(finite_fault::finite_source(model, medium::defaults_of({}), {}));
+  return finite_fault::slip_to_come(fault, margin_of(fault));
+}
+
+}  // namespace slipfront::run
