@@ -45,7 +45,7 @@ int run_compare(const CompareArguments& a) {
   record::require_disk_space(a.output, scenario::estimate_of(s, comparison.chains).disk);
   if (output.wanted()) interrupted_means("; the finished levels are in " + output.unfinished(), output.unfinished());
   const WatchInterrupts watch;
-  std::vector<run::Level> levels;
+  std::vector<run::ComparedModel> levels;
   std::optional<Progress> progress;
   const bool reached = run::compare(
       s, comparison, a.scales, output, a.common.threads, levels, [&] { progress.reset(); },

@@ -23,18 +23,18 @@ medium::UnitInSi unit_in(const CompareUnits& units, const Description& about) {
   return units ? units->of(about.dimensional_unit) : medium::UnitInSi{};
 }
 
-double last(const run::Level& level, const Scalar& number, const CompareUnits& units) {
+double last(const run::ComparedModel& level, const Scalar& number, const CompareUnits& units) {
   return number.get(level.snapshots.back()) * unit_in(units, number.about).value;
 }
 
 /// The numbers that describe a level.
-std::vector<std::pair<Description, std::optional<double>>> settings_of(const run::Level& level) {
+std::vector<std::pair<Description, std::optional<double>>> settings_of(const run::ComparedModel& level) {
   return {{output::slip_window, level.window},
           {output::velocity_window, level.smooth_window},
           {output::wall_time, level.wall_seconds}};
 }
 
-Json json_level(const run::Level& level, const run::Level* reference, const CompareUnits& units) {
+Json json_level(const run::ComparedModel& level, const run::ComparedModel* reference, const CompareUnits& units) {
   Json j = {{"level", level.name},
             {"closure", level.closure.empty() ? Json() : Json(level.closure)},
             {"scale", json_of(level.scale)}};
@@ -50,7 +50,7 @@ Json json_level(const run::Level& level, const run::Level* reference, const Comp
 }
 
 /// The names of the units in SI of all numbers of a level.
-Json names_of_units(const CompareUnits& units, const run::Level& level) {
+Json names_of_units(const CompareUnits& units, const run::ComparedModel& level) {
   Json names;
   const auto add = [&](const Description& about) {
     if (!about.dimensional_unit.empty()) names[std::string(about.name)] = unit_in(units, about).name;
@@ -61,7 +61,7 @@ Json names_of_units(const CompareUnits& units, const run::Level& level) {
   return names;
 }
 
-void print_json(const scenario::Scenario& s, const std::vector<run::Level>& levels) {
+void print_json(const scenario::Scenario& s, const std::vector<run::ComparedModel>& levels) {
   const std::optional<double> C = s.friction.linear_coefficient();
   const CompareUnits& units = s.results_in;
   Json j = {{"time", s.end * unit_in(units, output::end_time).value},
@@ -69,7 +69,8 @@ void print_json(const scenario::Scenario& s, const std::vector<run::Level>& leve
             {"damping_number", C ? Json(*C * s.end) : Json()},
             {"reference", "pulse-consistent"},
             {"levels", Json::array()}};
-  for (const run::Level& level : levels) j["levels"].push_back(json_level(level, run::reference_level(levels), units));
+  for (const run::ComparedModel& level : levels)
+    j["levels"].push_back(json_level(level, run::reference_level(levels), units));
   for (const Scalar& q : run::compared_numbers()) {
     const run::Trend t = run::trend_of(levels, q);
     const double unit = unit_in(units, q.about).value;
@@ -121,7 +122,7 @@ void add_row(TerminalTable& table, const std::string& name, Cell&& cell) {
   table.add(std::move(cells));
 }
 
-void add_levels(TerminalTable& table, const std::vector<run::Level>& levels, const CompareUnits& units) {
+void add_levels(TerminalTable& table, const std::vector<run::ComparedModel>& levels, const CompareUnits& units) {
   Cells head = {"at the end"};
   for (const Scalar& q : run::compared_numbers()) head.emplace_back(q.heading);
   head.emplace_back("seconds");
@@ -129,7 +130,7 @@ void add_levels(TerminalTable& table, const std::vector<run::Level>& levels, con
   add_row(table, "", [&](const Scalar& q) {
     return units ? unit_in(units, q.about).name : std::string(q.about.dimensional_unit);
   });
-  for (const run::Level& level : levels) {
+  for (const run::ComparedModel& level : levels) {
     Cells cells = {level.name};
     for (const Scalar& q : run::compared_numbers()) cells.push_back(cell(last(level, q, units)));
     cells.push_back(fmt::format("{:.2g}", level.wall_seconds));
@@ -137,13 +138,13 @@ void add_levels(TerminalTable& table, const std::vector<run::Level>& levels, con
   }
 }
 
-void add_differences(TerminalTable& table, const std::vector<run::Level>& levels, const run::Level& reference,
-                     const CompareUnits& units) {
+void add_differences(TerminalTable& table, const std::vector<run::ComparedModel>& levels,
+                     const run::ComparedModel& reference, const CompareUnits& units) {
   const auto theory = [&](const Scalar& q) { return last(reference, q, units); };
   const auto unit = [&](const Scalar& q) { return unit_in(units, q.about).value; };
   table.add_title("");
   table.add_title("difference from pulse-consistent");
-  for (const run::Level& level : levels)
+  for (const run::ComparedModel& level : levels)
     if (&level != &reference)
       add_row(table, level.name,
               [&](const Scalar& q) { return difference_cell(last(level, q, units) - theory(q), theory(q), q, units); });
@@ -157,13 +158,13 @@ void add_differences(TerminalTable& table, const std::vector<run::Level>& levels
   });
 }
 
-void print_table(const scenario::Scenario& s, const std::vector<run::Level>& levels) {
+void print_table(const scenario::Scenario& s, const std::vector<run::ComparedModel>& levels) {
   put(fitted(fmt::format("{}{}t = {}, {}", s.title, s.title.empty() ? "" : ": ", s.in_results(s.end, "b / (c A)"),
                          friction_in_words(s.friction, s.end))));
   put("\n");
   TerminalTable table(compare_columns);
   add_levels(table, levels, s.results_in);
-  const run::Level* reference = run::reference_level(levels);
+  const run::ComparedModel* reference = run::reference_level(levels);
   if (reference) add_differences(table, levels, *reference, s.results_in);
   put(table.text());
   if (!reference) return;
@@ -173,6 +174,6 @@ void print_table(const scenario::Scenario& s, const std::vector<run::Level>& lev
 
 }  // namespace
 
-void print_comparison(const scenario::Scenario& s, const std::vector<run::Level>& levels, bool json) {
+void print_comparison(const scenario::Scenario& s, const std::vector<run::ComparedModel>& levels, bool json) {
   json ? print_json(s, levels) : print_table(s, levels);
 }

@@ -43,8 +43,8 @@ constexpr std::array<FrictionColumn, 10> friction_columns = {{{"stress", &Row::s
                                                               {"front_ratio", &Row::front_ratio},
                                                               {"stress_drop_share", &Row::stress_drop_share}}};
 
-Row from_ratio(const Relations& r, Closure closure, const char* name, friction_ratio::Measure measure, double ratio,
-               double time) {
+Row from_ratio(const Relations& r, Closure closure, const char* name, friction_ratio::SlipVelocityKind measure,
+               double ratio, double time) {
   const friction_ratio::Reading reading = friction_ratio::damping_number(measure, closure, r.stress, ratio);
   return {r.stress,
           r.rupture_velocity,
@@ -59,7 +59,7 @@ Row from_ratio(const Relations& r, Closure closure, const char* name, friction_r
           stress_drop_share(friction_ratio::Drop::origin, closure, r.stress, reading.damping_number).value};
 }
 
-Row from_coefficient(const Relations& r, Closure closure, const char* name, friction_ratio::Measure measure,
+Row from_coefficient(const Relations& r, Closure closure, const char* name, friction_ratio::SlipVelocityKind measure,
                      double coefficient, double time) {
   const double damping = coefficient * time, ratio = evaluate(measure, closure, r.stress, damping).value;
   const double error = ratio * friction_ratio::uncertainty(closure, damping);
@@ -77,7 +77,7 @@ Row from_coefficient(const Relations& r, Closure closure, const char* name, fric
 }
 
 std::vector<Row> rows_of(const std::vector<Relations>& states, const FrictionOptions& friction) {
-  const friction_ratio::Measure measure = friction_ratio::measure_named(friction.measure, "--measure");
+  const friction_ratio::SlipVelocityKind measure = friction_ratio::measure_named(friction.measure, "--measure");
   std::vector<Row> rows;
   for (const Relations& r : states)
     for (const auto& [closure, name] : {std::pair{Closure::consistent, "consistent"}, {Closure::paper, "paper"}}) {

@@ -18,14 +18,14 @@ namespace {
 
 using namespace slipfront;
 using namespace pybind11::literals;
-using run::Level;
+using run::ComparedModel;
 
 /// The value of the unit of a number in the units of the results.
 double in_results(const scenario::Scenario& s, const Description& about) {
   return s.results_in ? s.results_in->of(about.dimensional_unit).value : 1;
 }
 
-py::list trends(const std::vector<Level>& levels, const scenario::Scenario& s) {
+py::list trends(const std::vector<ComparedModel>& levels, const scenario::Scenario& s) {
   py::list rows;
   for (const output::Scalar& q : run::compared_numbers()) {
     const run::Trend t = run::trend_of(levels, q);
@@ -35,25 +35,25 @@ py::list trends(const std::vector<Level>& levels, const scenario::Scenario& s) {
   return rows;
 }
 
-py::list level_rows(const std::vector<Level>& levels) {
+py::list level_rows(const std::vector<ComparedModel>& levels) {
   py::list rows;
-  for (const Level& level : levels)
+  for (const ComparedModel& level : levels)
     rows.append(py::dict("name"_a = level.name, "closure"_a = level.closure, "scale"_a = level.scale,
                          "wall_seconds"_a = level.wall_seconds));
   return rows;
 }
 
 /// The variables that describe levels: (description, one value for each level).
-py::list numbers_of_levels(const std::vector<Level>& levels) {
-  const auto column = [&](const Description& about, std::optional<double> Level::*value) {
+py::list numbers_of_levels(const std::vector<ComparedModel>& levels) {
+  const auto column = [&](const Description& about, std::optional<double> ComparedModel::*value) {
     std::vector<double> values;
-    for (const Level& level : levels) values.push_back((level.*value).value_or(none));
+    for (const ComparedModel& level : levels) values.push_back((level.*value).value_or(none));
     return py::make_tuple(described(about),
                           py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data()));
   };
   py::list columns;
-  columns.append(column(output::slip_window, &Level::window));
-  columns.append(column(output::velocity_window, &Level::smooth_window));
+  columns.append(column(output::slip_window, &ComparedModel::window));
+  columns.append(column(output::velocity_window, &ComparedModel::smooth_window));
   return columns;
 }
 
@@ -61,7 +61,7 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   const RunRequest a = request_of(arguments);
   const scenario::Scenario s = scenario_of(a);
   Watch watch(a.progress, s.end);
-  std::vector<Level> levels;
+  std::vector<ComparedModel> levels;
   run::Comparison comparison;
   record::RunMetadata metadata;
   bool reached = false;
@@ -77,7 +77,7 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   }
   watch.finish();
   record::Levels series;
-  for (const Level& level : levels) series.push_back(&level.snapshots);
+  for (const ComparedModel& level : levels) series.push_back(&level.snapshots);
   py::dict result = dataset_of(metadata, record::comparison_format, reached,
                                record::arrays_of(metadata, comparison.schedule.times, series));
   result["levels"] = level_rows(levels);

@@ -17,7 +17,7 @@ constexpr std::array<Description, 4> friction_ratio_described = {{
 py::list friction_ratio_of(const Numbers& stress, const Numbers& damping, const std::string& measure,
                            const std::string& closure_name) {
   const friction::Closure closure = friction::closure_named(closure_name);
-  const friction_ratio::Measure which = friction_ratio::measure_named(measure, "measure");
+  const friction_ratio::SlipVelocityKind which = friction_ratio::measure_named(measure, "measure");
   const double *s = stress.data(), *g = damping.data();
   return columns<4>(stress.size(), [=](py::ssize_t i) {
     const friction_ratio::Ratio r = friction_ratio::evaluate(which, closure, s[i], g[i]);
@@ -33,7 +33,7 @@ constexpr std::array<Description, 2> damping_number_described = {{
 py::list damping_number_of(const Numbers& stress, const Numbers& ratio, const std::string& measure,
                            const std::string& closure_name) {
   const friction::Closure closure = friction::closure_named(closure_name);
-  const friction_ratio::Measure which = friction_ratio::measure_named(measure, "measure");
+  const friction_ratio::SlipVelocityKind which = friction_ratio::measure_named(measure, "measure");
   const double *s = stress.data(), *r = ratio.data();
   return columns<2>(stress.size(), [=](py::ssize_t i) {
     const friction_ratio::Reading reading = friction_ratio::damping_number(which, closure, s[i], r[i]);

@@ -9,7 +9,7 @@
 namespace {
 
 using namespace slipfront;
-using catalogue::Measured;
+using catalogue::MeasuredValue;
 using medium::Dimension;
 
 Dimension dimension_named(const std::string& name) {
@@ -33,10 +33,10 @@ struct Position {
   throw InputError(complaint);
 }
 
-Measured parse(const std::string& text, const std::string& dimension, const std::string& unit, const std::string& file,
-               std::size_t line, const std::string& column) {
+MeasuredValue parse(const std::string& text, const std::string& dimension, const std::string& unit,
+                    const std::string& file, std::size_t line, const std::string& column) {
   const Position position{file, line, column};
-  Measured measured;
+  MeasuredValue measured;
   try {
     measured = catalogue::parse_measured(text, dimension_named(dimension), unit);
   } catch (const InputError& error) {
@@ -54,16 +54,16 @@ Measured parse(const std::string& text, const std::string& dimension, const std:
 }  // namespace
 
 void bind_measured(py::module_& m) {
-  py::class_<Measured>(m, "Measured")
+  py::class_<MeasuredValue>(m, "Measured")
       .def_property_readonly("is_lognormal",
-                             [](const Measured& self) { return self.shape == Measured::Shape::lognormal; })
-      .def_property_readonly("middle", &Measured::middle)
-      .def_property_readonly("is_exact", &Measured::is_exact)
-      .def_property_readonly("is_range", &Measured::is_range)
-      .def_readonly_static("least_even_share", &Measured::least_even_share)
-      .def("quantile", py::vectorize(&Measured::quantile))
-      .def("share_below", py::vectorize(&Measured::share_below))
-      .def("likelihood", py::vectorize(&Measured::likelihood));
+                             [](const MeasuredValue& self) { return self.shape == MeasuredValue::Shape::lognormal; })
+      .def_property_readonly("middle", &MeasuredValue::middle)
+      .def_property_readonly("is_exact", &MeasuredValue::is_exact)
+      .def_property_readonly("is_range", &MeasuredValue::is_range)
+      .def_readonly_static("least_even_share", &MeasuredValue::least_even_share)
+      .def("quantile", py::vectorize(&MeasuredValue::quantile))
+      .def("share_below", py::vectorize(&MeasuredValue::share_below))
+      .def("likelihood", py::vectorize(&MeasuredValue::likelihood));
   m.def("parse_measured", parse);
   m.def("refuse", refuse);
 }

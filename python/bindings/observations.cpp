@@ -18,21 +18,21 @@
 namespace {
 
 using namespace slipfront;
-using catalogue::Measured;
+using catalogue::MeasuredValue;
 using catalogue::Observation;
 
 /// Median and standard deviation of ln x, of a lognormal distribution that is as wide as the measured one. NaN if there
 /// is no value. The deviation is 0 for an exact number.
-std::pair<double, double> logarithm_of(const std::optional<Measured>& measured) {
+std::pair<double, double> logarithm_of(const std::optional<MeasuredValue>& measured) {
   if (!measured) return {std::nan(""), std::nan("")};
   switch (measured->shape) {
-    case Measured::Shape::lognormal:
+    case MeasuredValue::Shape::lognormal:
       return {std::log(measured->low), std::log(measured->spread)};
-    case Measured::Shape::normal:
+    case MeasuredValue::Shape::normal:
       return {std::log(measured->low), measured->spread / measured->low};
-    case Measured::Shape::split:
+    case MeasuredValue::Shape::split:
       return {std::log(measured->low), (measured->spread + measured->spread_below) / 2 / measured->low};
-    case Measured::Shape::range:
+    case MeasuredValue::Shape::range:
       break;
   }
   const double width = std::log(measured->high / measured->low);
@@ -41,7 +41,7 @@ std::pair<double, double> logarithm_of(const std::optional<Measured>& measured) 
 
 struct Quantity {
   const char* name;
-  std::optional<Measured> Observation::*member;
+  std::optional<MeasuredValue> Observation::*member;
 };
 constexpr std::array<Quantity, 8> observables = {{{"rupture_velocity", &Observation::rupture_velocity_m_s},
                                                   {"slip", &Observation::slip},
@@ -123,7 +123,7 @@ std::pair<double, double> measured(const std::string& text, const std::string& d
   const Dimension kind = dimension == "length"     ? Dimension::length
                          : dimension == "pressure" ? Dimension::pressure
                                                    : Dimension::ratio;
-  const Measured value = catalogue::parse_measured(text, kind, unit);
+  const MeasuredValue value = catalogue::parse_measured(text, kind, unit);
   if (!(value.low > 0)) throw InputError({.value = text, .problem = "not positive", .allowed = "> 0"});
   return logarithm_of(value);
 }

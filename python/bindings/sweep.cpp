@@ -58,12 +58,12 @@ std::vector<double> numbers(std::vector<run::Row> summary, const Variables& vari
 class SharedMemory {
  public:
   /// Reserves memory, and releases it when it is destroyed.
-  class Share {
+  class RankSites {
    public:
-    Share(SharedMemory& memory, double bytes) : memory_(memory), bytes_(bytes) {}
-    Share(const Share&) = delete;
-    Share& operator=(const Share&) = delete;
-    ~Share() {
+    RankSites(SharedMemory& memory, double bytes) : memory_(memory), bytes_(bytes) {}
+    RankSites(const RankSites&) = delete;
+    RankSites& operator=(const RankSites&) = delete;
+    ~RankSites() {
       const std::scoped_lock lock(memory_.mutex_);
       memory_.used_ -= bytes_;
       --memory_.shares_;
@@ -76,7 +76,7 @@ class SharedMemory {
   };
 
   /// Reserves memory. Waits until there is enough, until no other share exists, or until `stopped`.
-  Share take(double bytes, const std::atomic<bool>& stopped) {
+  RankSites take(double bytes, const std::atomic<bool>& stopped) {
     std::unique_lock lock(mutex_);
     while (shares_ > 0 && used_ + bytes > all_ && !stopped) changed_.wait_for(lock, std::chrono::milliseconds(50));
     used_ += bytes;

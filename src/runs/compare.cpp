@@ -57,7 +57,7 @@ chain::Run chain_of(const Comparison& c, const chain::ScaledProblem& scaled, int
 
 /// Runs one level to its end; false if stopped.
 template <class Run>
-bool carry(Run& run, Level& level, const std::function<bool()>& after_step) {
+bool carry(Run& run, ComparedModel& level, const std::function<bool()>& after_step) {
   const auto begun = Clock::now();
   bool reached = false;
   try {
@@ -92,13 +92,13 @@ void begin_levels(const Comparison& c) {
   for (const chain::ScaledProblem& scaled : c.chains) chain_of(c, scaled, 1);
 }
 
-bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, const std::function<void()>& next,
+bool run_levels(const Comparison& c, int threads, std::vector<ComparedModel>& levels, const std::function<void()>& next,
                 const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
   if (c.exact) levels.push_back(*c.exact);
   for (const friction::Closure closure : closures_of(c)) {
     next();
     const char* name = name_of(closure);
-    Level level{.name = std::string("pulse-") + name, .closure = name};
+    ComparedModel level{.name = std::string("pulse-") + name, .closure = name};
     pulse::Run run = pulse_of(c, closure);
     const auto after = [&] { return after_step(level.name, run.time(), run.steps()); };
     if (!carry(run, level, after)) return false;
@@ -106,7 +106,7 @@ bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, co
   }
   for (const chain::ScaledProblem& scaled : c.chains) {
     next();
-    Level level{.name = "chain-" + digits(scaled.scale), .scale = scaled.scale};
+    ComparedModel level{.name = "chain-" + digits(scaled.scale), .scale = scaled.scale};
     chain::Run run = chain_of(c, scaled, threads);
     level.window = run.window();
     if (!carry(run, level, [&] { return after_step(level.name, run.time(), run.chain().steps()); })) return false;
@@ -125,19 +125,19 @@ const std::vector<output::Scalar>& compared_numbers() {
   return compared;
 }
 
-const Level* reference_level(const std::vector<Level>& levels) {
-  for (const Level& level : levels)
+const ComparedModel* reference_level(const std::vector<ComparedModel>& levels) {
+  for (const ComparedModel& level : levels)
     if (level.name == "pulse-consistent" && !level.snapshots.empty()) return &level;
   return nullptr;
 }
 
-Trend trend_of(const std::vector<Level>& levels, const output::Scalar& number) {
+Trend trend_of(const std::vector<ComparedModel>& levels, const output::Scalar& number) {
   Trend trend;
-  const Level* reference = reference_level(levels);
+  const ComparedModel* reference = reference_level(levels);
   if (!reference) return trend;
   const double theory = number.get(reference->snapshots.back());
   std::vector<double> scale, value;  // ascending
-  for (const Level& level : levels)
+  for (const ComparedModel& level : levels)
     if (level.scale && !level.snapshots.empty()) {
       scale.push_back(*level.scale);
       value.push_back(number.get(level.snapshots.back()));
@@ -163,7 +163,7 @@ Trend trend_of(const std::vector<Level>& levels, const output::Scalar& number) {
 namespace {
 
 /// The reason why quantities have no value at infinite scale. Empty if all have one.
-std::string note_on_limits(const std::vector<Level>& levels) {
+std::string note_on_limits(const std::vector<ComparedModel>& levels) {
   std::string names;
   for (const output::Scalar& q : compared_numbers())
     if (trend_of(levels, q).exponent < 0) names += (names.empty() ? "" : ", ") + std::string(q.about.name);
@@ -174,7 +174,7 @@ std::string note_on_limits(const std::vector<Level>& levels) {
 
 }  // namespace
 
-std::vector<std::string> notes_on(const scenario::Scenario& s, const std::vector<Level>& levels) {
+std::vector<std::string> notes_on(const scenario::Scenario& s, const std::vector<ComparedModel>& levels) {
   std::vector<std::string> notes;
   const bool two_sides = s.initial.even_ends;
   if (!s.friction.acts() && !s.pulse.many_trains && two_sides && s.initial.stress_left > 0 &&
@@ -187,7 +187,7 @@ std::vector<std::string> notes_on(const scenario::Scenario& s, const std::vector
       "pulse.threshold hides them");
   if (const std::string note = note_on_limits(levels); !note.empty()) notes.push_back(note);
   notes.insert(notes.end(), s.warnings.begin(), s.warnings.end());
-  for (const Level& level : levels)
+  for (const ComparedModel& level : levels)
     for (const std::string& warning : level.warnings) notes.push_back(level.name + ": " + warning);
   return notes;
 }
@@ -307,7 +307,7 @@ output::Snapshot snapshot_of(const TrainsSolution& solution, const Rays& rays, c
 
 }  // namespace
 
-std::optional<Level> closed_form(const scenario::Scenario& s, const output::Schedule& schedule) {
+std::optional<ComparedModel> closed_form(const scenario::Scenario& s, const output::Schedule& schedule) {
   if (!s.initial.jumps || s.friction.acts() || s.forcing_at || s.contact_at) return {};
   if (s.initial.stress_left == s.initial.stress_right) return {};  // nothing moves, so there is no wave to compare
   const TrainsSolution solution =
@@ -315,7 +315,7 @@ std::optional<Level> closed_form(const scenario::Scenario& s, const output::Sche
   const Edges edges = rupture::edges_of(solution);
   if (schedule.x_edges.front() > s.end * edges.left || schedule.x_edges.back() < s.end * edges.right) return {};
   const Rays rays = rays_of(solution, schedule.threshold);
-  Level level{.name = "closed-form"};
+  ComparedModel level{.name = "closed-form"};
   for (const double time : schedule.times) level.snapshots.push_back(snapshot_of(solution, rays, schedule, time));
   return level;
 }

@@ -18,7 +18,7 @@
 namespace slipfront::run {
 
 /// One level: a model with its settings and its results.
-struct Level {
+struct ComparedModel {
   std::string name;  ///< "closed-form", "pulse-consistent", "pulse-paper", "chain-1000"
   std::string closure = {};
   std::optional<double> scale = {};          ///< only for a chain
@@ -34,7 +34,7 @@ struct Comparison {
   std::string file;  ///< file of the scenario
   pulse::Problem problem = {};
   output::Schedule schedule = {};
-  std::optional<Level> exact = {};  ///< the closed form, if there is one
+  std::optional<ComparedModel> exact = {};  ///< the closed form, if there is one
   std::vector<chain::ScaledProblem> chains = {};
   std::size_t levels() const { return chains.size() + (exact ? 3 : 2); }
 };
@@ -50,20 +50,20 @@ void begin_levels(const Comparison& comparison);
 /// Runs the levels in order and appends each to `levels` when it is finished. It calls `next` before each run.
 /// `after_step` (level, its time, its number of steps) may stop all runs by returning true. Returns whether the end was
 /// reached. \throws NumericsError that names the level.
-bool run_levels(const Comparison& comparison, int threads, std::vector<Level>& levels,
+bool run_levels(const Comparison& comparison, int threads, std::vector<ComparedModel>& levels,
                 const std::function<void()>& next,
                 const std::function<bool(const std::string& level, double time, long steps)>& after_step);
 
 /// The closed form on the output grid: the exact solution of the Riemann problem (Eqs. 8-10 if the right side is
 /// empty). There is none with friction, forcing or a contact profile, without a step, or if waves reach an end of the
 /// domain.
-std::optional<Level> closed_form(const scenario::Scenario& scenario, const output::Schedule& schedule);
+std::optional<ComparedModel> closed_form(const scenario::Scenario& scenario, const output::Schedule& schedule);
 
 /// The numbers for which the levels are compared at the end of the run.
 const std::vector<output::Scalar>& compared_numbers();
 
 /// The level that the others are compared with: the pulse solver with closure "consistent". Null if it was not run.
-const Level* reference_level(const std::vector<Level>& levels);
+const ComparedModel* reference_level(const std::vector<ComparedModel>& levels);
 
 /// Dependence on scale of the difference between the chain and the reference. NaN if it is unknown.
 struct Trend {
@@ -75,9 +75,9 @@ struct Trend {
   double extrapolated = std::numeric_limits<double>::quiet_NaN();
   double difference = std::numeric_limits<double>::quiet_NaN();  ///< `extrapolated` less the reference
 };
-Trend trend_of(const std::vector<Level>& levels, const output::Scalar& number);
+Trend trend_of(const std::vector<ComparedModel>& levels, const output::Scalar& number);
 
 /// Notes and warnings that the reader of these levels needs, one line each.
-std::vector<std::string> notes_on(const scenario::Scenario& scenario, const std::vector<Level>& levels);
+std::vector<std::string> notes_on(const scenario::Scenario& scenario, const std::vector<ComparedModel>& levels);
 
 }  // namespace slipfront::run

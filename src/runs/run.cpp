@@ -171,14 +171,14 @@ Result begin(const Plan& plan, const Options& options) {
 }
 
 bool compare(const scenario::Scenario& scenario, const Comparison& comparison, const std::vector<double>& scales,
-             const record::Output& output, int threads, std::vector<Level>& levels,
+             const record::Output& output, int threads, std::vector<ComparedModel>& levels,
              const std::function<void()>& next_level,
              const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
   const auto write = [&](bool finished) {
     if (!output.wanted()) return;
     std::vector<record::ComparedLevel> compared;
     compared.reserve(levels.size());
-    for (const Level& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
+    for (const ComparedModel& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
     record::write_comparison(finished ? output.finished() : output.unfinished(),
                              metadata_of(scenario, "compare", comparison.schedule.x_edges, scales),
                              comparison.schedule.times, compared, finished);

@@ -121,7 +121,7 @@ Result carry_out(const Plan& plan, const Options& options);
 /// Runs a comparison, and writes each level when it is finished. `levels` gets the finished levels. `scales` are those
 /// that the user stated. Returns whether all levels are finished. \throws as run_levels, FileError.
 bool compare(const scenario::Scenario& scenario, const Comparison& comparison, const std::vector<double>& scales,
-             const record::Output& output, int threads, std::vector<Level>& levels,
+             const record::Output& output, int threads, std::vector<ComparedModel>& levels,
              const std::function<void()>& next_level,
              const std::function<bool(const std::string& level, double time, long steps)>& after_step);
 

@@ -23,15 +23,15 @@ std::string number(double x) {
   return out.str();
 }
 
-std::string text_of(const Measured& m) {
+std::string text_of(const MeasuredValue& m) {
   switch (m.shape) {
-    case Measured::Shape::range:
+    case MeasuredValue::Shape::range:
       return number(m.low) + (m.is_exact() ? "" : ".." + number(m.high));
-    case Measured::Shape::normal:
+    case MeasuredValue::Shape::normal:
       return number(m.low) + "+-" + number(m.spread);
-    case Measured::Shape::lognormal:
+    case MeasuredValue::Shape::lognormal:
       return number(m.low) + "*/" + number(m.spread);
-    case Measured::Shape::split:
+    case MeasuredValue::Shape::split:
       break;
   }
   return number(m.low) + "+" + number(m.spread) + "-" + number(m.spread_below);

@@ -71,7 +71,7 @@ inline std::size_t warnings_with(const Observation& o, std::string_view text) {
       o.warnings.begin(), o.warnings.end(), [&](const std::string& w) { return w.find(text) != std::string::npos; }));
 }
 
-inline void expect_value(const std::optional<Measured>& measured, double value) {
+inline void expect_value(const std::optional<MeasuredValue>& measured, double value) {
   ASSERT_TRUE(measured);
   EXPECT_DOUBLE_EQ(measured->low, value);
   EXPECT_EQ(measured->low, measured->high);

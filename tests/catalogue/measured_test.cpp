@@ -10,27 +10,27 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::catalogue;
-using Shape = Measured::Shape;
+using Shape = MeasuredValue::Shape;
 using medium::Dimension;
 
-Measured read(const char* text) { return parse_measured(text, Dimension::velocity, "km/s"); }
+MeasuredValue read(const char* text) { return parse_measured(text, Dimension::velocity, "km/s"); }
 
-TEST(Measured, ReadsEveryForm) {
+TEST(MeasuredValue, ReadsEveryForm) {
   for (const char* text : {"3.0 +- 0.2 km/s", "3.0 +/- 0.2 km/s", "3.0 \xC2\xB1 0.2 km/s", "normal(3.0, 0.2) km/s",
                            "3.0 +- 0.2", " normal( 3.0 ,0.2 ) "}) {
-    const Measured m = read(text);
+    const MeasuredValue m = read(text);
     EXPECT_EQ(m.shape, Shape::normal) << text;
     EXPECT_DOUBLE_EQ(m.middle(), 3000) << text;
     EXPECT_DOUBLE_EQ(m.spread, 200) << text;
   }
   for (const char* text : {"2.8..3.2 km/s", "2.8 - 3.2 km/s", "uniform(2.8, 3.2) km/s", "2.8 .. 3.2"}) {
-    const Measured m = read(text);
+    const MeasuredValue m = read(text);
     EXPECT_EQ(m.shape, Shape::range) << text;
     EXPECT_DOUBLE_EQ(m.low, 2800) << text;
     EXPECT_DOUBLE_EQ(m.high, 3200) << text;
   }
   for (const char* text : {"3 */ 1.2 km/s", "lognormal(3, 1.2) km/s"}) {
-    const Measured m = read(text);
+    const MeasuredValue m = read(text);
     EXPECT_EQ(m.shape, Shape::lognormal) << text;
     EXPECT_DOUBLE_EQ(m.low, 3000) << text;
     EXPECT_DOUBLE_EQ(m.spread, 1.2) << text;
@@ -38,20 +38,20 @@ TEST(Measured, ReadsEveryForm) {
   EXPECT_TRUE(read("3 km/s").is_exact());
 }
 
-TEST(Measured, ReadsAPercentageAsAShareOfTheValue) {
+TEST(MeasuredValue, ReadsAPercentageAsAShareOfTheValue) {
   for (const char* text : {"2.7 +- 10% km/s", "2.7 +- 10 % km/s", "2.7 +/- 10 %", "2.7 \xC2\xB1 10% km/s"}) {
-    const Measured m = read(text);
+    const MeasuredValue m = read(text);
     EXPECT_EQ(m.shape, Shape::normal) << text;
     EXPECT_DOUBLE_EQ(m.middle(), 2700) << text;
     EXPECT_DOUBLE_EQ(m.spread, 270) << text;
   }
 }
 
-TEST(Measured, ReadsTheUnitBehindEitherNumber) {
+TEST(MeasuredValue, ReadsTheUnitBehindEitherNumber) {
   for (const char* text :
        {"2.7 km/s +- 0.2", "2.7 km/s +- 0.2 km/s", "2.7km/s+-0.2", "2.7 \xC2\xB1 0.2 km s-1", "2.7(2) km/s",
         "2.70(20) km/s", "2.7 +0.2/-0.2", "2.7 km s\xE2\x81\xBB\xC2\xB9 \xC2\xB1 0.2"}) {
-    const Measured m = read(text);
+    const MeasuredValue m = read(text);
     EXPECT_EQ(m.shape, Shape::normal) << text;
     EXPECT_DOUBLE_EQ(m.middle(), 2700) << text;
     EXPECT_NEAR(m.spread, 200, 1e-9) << text;
@@ -67,7 +67,7 @@ TEST(Measured, ReadsTheUnitBehindEitherNumber) {
   }
 }
 
-TEST(Measured, ReadsPowersOfTen) {
+TEST(MeasuredValue, ReadsPowersOfTen) {
   for (const char* text : {"1.2e18 N m", "1.2E+18 Nm", "1.2 x 10^18 N m",
                            "1.2\xC3\x97"
                            "10^18 N-m",
@@ -76,12 +76,12 @@ TEST(Measured, ReadsPowersOfTen) {
   EXPECT_THROW(parse_measured("1.2x1018 N m", Dimension::moment, ""), InputError);
 }
 
-TEST(Measured, ReadsUnequalErrors) {
+TEST(MeasuredValue, ReadsUnequalErrors) {
   for (const char* text : {"2.7 +0.3/-0.1 km/s", "2.7 +0.3 -0.1", "2.7+0.3-0.1", "2.7 (+0.3/-0.1) km/s",
                            "2.7 km/s +0.3/-0.1", "2.7 -0.1/+0.3 km/s", "2.7 (-0.1, +0.3)",
                            "2.7 +0.3/\xE2\x88\x92"
                            "0.1"}) {
-    const Measured m = read(text);
+    const MeasuredValue m = read(text);
     EXPECT_EQ(m.shape, Shape::split) << text;
     EXPECT_DOUBLE_EQ(m.middle(), 2700) << text;
     EXPECT_DOUBLE_EQ(m.spread, 300) << text;
@@ -92,7 +92,7 @@ TEST(Measured, ReadsUnequalErrors) {
   }
 }
 
-TEST(Measured, ReadsBounds) {
+TEST(MeasuredValue, ReadsBounds) {
   for (const char* text : {"<2.7", "< 2.7 km/s", "<= 2.7 km/s", "\xE2\x89\xA4 2.7"}) {
     const auto bound = parse_bound(text, Dimension::velocity, "km/s");
     ASSERT_TRUE(bound) << text;
@@ -104,7 +104,7 @@ TEST(Measured, ReadsBounds) {
   EXPECT_THROW(parse_bound("< 2.7 +- 0.1", Dimension::velocity, "km/s"), InputError);
 }
 
-TEST(Measured, RejectsPercentagesThatItDoesNotUnderstand) {
+TEST(MeasuredValue, RejectsPercentagesThatItDoesNotUnderstand) {
   for (const char* text :
        {"2.7 +- -10 % km/s", "2.7 */ 10 % km/s", "2.7 % km/s", "2..3 % km/s", "normal(2.7, 10 %) km/s"})
     EXPECT_THROW(read(text), InputError) << text;
@@ -112,7 +112,7 @@ TEST(Measured, RejectsPercentagesThatItDoesNotUnderstand) {
   EXPECT_DOUBLE_EQ(parse_measured("3 %", Dimension::ratio, "").middle(), 0.03);
 }
 
-TEST(Measured, RejectsWithTheReason) {
+TEST(MeasuredValue, RejectsWithTheReason) {
   const auto complaint = [](const char* text) {
     try {
       read(text);
@@ -145,15 +145,15 @@ TEST(Measured, RejectsWithTheReason) {
     EXPECT_NE(complaint(text).find(says), std::string::npos) << text << ": " << complaint(text);
 }
 
-TEST(Measured, HasALikelihoodThatAgreesWithItsQuantiles) {
+TEST(MeasuredValue, HasALikelihoodThatAgreesWithItsQuantiles) {
   for (const char* text : {"3 +- 0.5", "3 */ 1.4", "2..4", "3 +0.5/-0.2"}) {
-    const Measured m = read(text);
+    const MeasuredValue m = read(text);
     for (const double p : {0.05, 0.3, 0.5, 0.8, 0.99}) {
       const double h = 1e-6;
       // The likelihood over the density of the quantiles, in x or in ln x, is constant.
       const auto even = [&](double at) {
         const double x = m.quantile(at), pace = (m.quantile(at + h) - m.quantile(at - h)) / (2 * h);
-        return m.likelihood(x) * pace / (m.shape == Measured::Shape::lognormal ? x : 1);
+        return m.likelihood(x) * pace / (m.shape == MeasuredValue::Shape::lognormal ? x : 1);
       };
       EXPECT_NEAR(even(p) / even(0.5), 1, 1e-6) << text << " " << p;
       EXPECT_NEAR(m.likelihood_of_log(std::log(m.quantile(p))), m.likelihood(m.quantile(p)), 1e-12);
@@ -165,16 +165,16 @@ TEST(Measured, HasALikelihoodThatAgreesWithItsQuantiles) {
   EXPECT_EQ(read("2..4").likelihood(1999), 0);
 }
 
-TEST(Measured, HasALikelihoodThatFallsTowardsZeroForANormalError) {
-  const Measured m = read("2 +- 1");
+TEST(MeasuredValue, HasALikelihoodThatFallsTowardsZeroForANormalError) {
+  const MeasuredValue m = read("2 +- 1");
   EXPECT_NEAR(m.likelihood(1400), std::exp(-0.18), 1e-12);
   EXPECT_NEAR(m.likelihood(14), 0.01 * std::exp(-0.5 * 1.986 * 1.986), 1e-12);
 }
 
-TEST(Measured, HasAShareBelowThatInvertsItsQuantiles) {
+TEST(MeasuredValue, HasAShareBelowThatInvertsItsQuantiles) {
   for (const char* text : {"3 +- 0.5", "3 */ 1.4", "2..4", "3 +0.5/-0.2"})
     for (const double p : {1e-6, 0.05, 0.5, 0.8, 0.99}) {
-      const Measured m = read(text);
+      const MeasuredValue m = read(text);
       EXPECT_NEAR(m.share_below(m.quantile(p)) / p, 1, 1e-9) << text << " " << p;
     }
   EXPECT_EQ(read("2..4").share_below(1999), 0);

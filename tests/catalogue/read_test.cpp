@@ -53,7 +53,7 @@ TEST(Toml, ReadsDistributionsAsTables) {
       "[event]\nrupture_velocity = \"3.0 +- 0.2 km/s\"\nslip_velocity = \"0.5 */ 1.2 m/s\"\nduration = \"1..14 day\"\n"
       "[medium]\ncontact_ratio = \"0.01 +- 0.002\"\n",
       "t.toml");
-  const auto expect_same = [](const Measured& a, const Measured& b) {
+  const auto expect_same = [](const MeasuredValue& a, const MeasuredValue& b) {
     EXPECT_DOUBLE_EQ(a.low, b.low);
     EXPECT_DOUBLE_EQ(a.high, b.high);
     EXPECT_EQ(a.shape, b.shape);

@@ -12,8 +12,8 @@
 
 #include "chain_cases.hpp"
 #include "lattice/chain/implicit/implicit_chain.hpp"
-#include "lattice/chain/measure/totals.hpp"
 #include "lattice/chain/model/initial_train.hpp"
+#include "lattice/chain/observe/totals.hpp"
 #include "lattice/chain/scaled_start.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/lattice/chain/run.hpp"

@@ -66,8 +66,8 @@ double force_that_halves_slip(const Definition& law, std::size_t word) {
   return low;
 }
 
-double slip_of(const std::vector<run::Level>& levels, std::string_view name) {
-  for (const run::Level& level : levels)
+double slip_of(const std::vector<run::ComparedModel>& levels, std::string_view name) {
+  for (const run::ComparedModel& level : levels)
     if (level.name == name) return level.snapshots.back().slip_at_origin;
   ADD_FAILURE() << "no level " << name;
   return 0;
@@ -78,7 +78,7 @@ TEST(Laws, SlipEquallyOnThePulseAndOnChainsOfTwoScales) {
     for (std::size_t word = 0; !law->parameters.empty() && word < friction::law_words(*law); ++word) {
       SCOPED_TRACE(std::string(law->name) + ", word " + std::to_string(word));
       const scenario::Scenario s = step_under(*law, word, force_that_halves_slip(*law, word));
-      std::vector<run::Level> levels;
+      std::vector<run::ComparedModel> levels;
       run::run_levels(
           run::comparison_of(s, {small_scale, large_scale}), 1, levels, [] {},
           [](const std::string&, double, long) { return false; });

@@ -6,9 +6,9 @@
 #include "exact_chains.hpp"
 #include "lattice/chain/explicit/explicit_chain.hpp"
 #include "lattice/chain/explicit/levels/contact_force.hpp"
-#include "lattice/chain/measure/averages.hpp"
-#include "lattice/chain/measure/totals.hpp"
 #include "lattice/chain/model/initial_train.hpp"
+#include "lattice/chain/observe/averages.hpp"
+#include "lattice/chain/observe/totals.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/theory/train.hpp"
 

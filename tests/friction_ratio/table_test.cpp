@@ -16,7 +16,7 @@ using namespace slipfront::friction_ratio;
 using friction::Closure;
 
 constexpr Closure both_closures[] = {Closure::consistent, Closure::paper};
-constexpr auto& measures = all_measures;
+constexpr auto& measures = all_slip_velocity_kinds;
 
 /// Checks a few points of `friction_ratio_table check`. None of them is a node of the table.
 TEST(FrictionRatio, AgreesWithThePulseSolver) {
@@ -29,7 +29,7 @@ TEST(FrictionRatio, AgreesWithThePulseSolver) {
       const SlipVelocities w = solve({.stress = p.stress, .damping_number = p.damping, .closure = closure});
       const double unit = rupture::from_stress(p.stress).slip_velocity;
       const double wanted[] = {w.origin / unit, w.mean / unit, w.peak / unit, w.time_mean / unit};
-      for (const Measure m : measures)
+      for (const SlipVelocityKind m : measures)
         EXPECT_NEAR(evaluate(m, closure, p.stress, p.damping).value / wanted[static_cast<int>(m)], 1,
                     uncertainty(closure, p.damping))
             << p.stress << " " << p.damping << " " << static_cast<int>(closure) << static_cast<int>(m);
@@ -55,7 +55,7 @@ TEST(FrictionRatio, FollowsTheCorners) {
     const SlipVelocities w = solve({.stress = p.stress, .damping_number = p.damping, .cells = 800});
     const double unit = rupture::from_stress(p.stress).slip_velocity;
     const double wanted[] = {w.origin / unit, w.mean / unit, w.peak / unit, w.time_mean / unit};
-    for (const Measure m : measures)
+    for (const SlipVelocityKind m : measures)
       EXPECT_NEAR(evaluate(m, Closure::consistent, p.stress, p.damping).value / wanted[static_cast<int>(m)], 1, 3e-5)
           << p.stress << " " << p.damping << " " << static_cast<int>(m);
   }
@@ -73,11 +73,12 @@ TEST(FrictionRatio, IntegratesTheSlipVelocityForTheTimeMean) {
         double sum = 0;
         for (int i = 0; i <= intervals; ++i) {
           const double weight = i == 0 || i == intervals ? 1 : i % 2 == 1 ? 4 : 2, gamma = std::expm1(i * step);
-          sum += weight * evaluate(Measure::origin, closure, stress, gamma).value * (1 + gamma);
+          sum += weight * evaluate(SlipVelocityKind::origin, closure, stress, gamma).value * (1 + gamma);
         }
         const double mean = sum * step / 3 / damping;
         const bool unstable = closure == Closure::paper && damping > 3;
-        EXPECT_NEAR(evaluate(Measure::time_mean, closure, stress, damping).value / mean, 1, unstable ? 1e-2 : 5e-5)
+        EXPECT_NEAR(evaluate(SlipVelocityKind::time_mean, closure, stress, damping).value / mean, 1,
+                    unstable ? 1e-2 : 5e-5)
             << stress << " " << damping << " " << static_cast<int>(closure);
       }
 }
@@ -85,9 +86,9 @@ TEST(FrictionRatio, IntegratesTheSlipVelocityForTheTimeMean) {
 /// In the paper's ETS event, slip over duration is a fifth of the frictionless slip velocity. This takes Gamma = 21.4,
 /// or 137 with the paper's closure. The values 5.7 and 36 belong to W at the end of the event.
 TEST(FrictionRatio, TimeMeanOfTheEtsEventIsAFifth) {
-  EXPECT_NEAR(evaluate(Measure::time_mean, Closure::consistent, 0.2117, 21.4).value, 0.199, 3e-4);
-  EXPECT_NEAR(evaluate(Measure::time_mean, Closure::paper, 0.2117, 137).value, 0.199, 1e-3);
-  EXPECT_NEAR(evaluate(Measure::origin, Closure::consistent, 0.2117, 5.74).value, 0.199, 3e-4);
+  EXPECT_NEAR(evaluate(SlipVelocityKind::time_mean, Closure::consistent, 0.2117, 21.4).value, 0.199, 3e-4);
+  EXPECT_NEAR(evaluate(SlipVelocityKind::time_mean, Closure::paper, 0.2117, 137).value, 0.199, 1e-3);
+  EXPECT_NEAR(evaluate(SlipVelocityKind::origin, Closure::consistent, 0.2117, 5.74).value, 0.199, 3e-4);
 }
 
 TEST(FrictionRatio, OneRunGivesManyDampingNumbers) {
@@ -103,7 +104,7 @@ TEST(FrictionRatio, TendsToTheDiffusionLimit) {
   const double unit = rupture::from_stress(0.855).slip_velocity;
   const double damping = 1e12;
   const auto W = [&](Closure c) {
-    return evaluate(Measure::origin, c, 0.855, damping).value * unit * std::sqrt(damping);
+    return evaluate(SlipVelocityKind::origin, c, 0.855, damping).value * unit * std::sqrt(damping);
   };
   EXPECT_NEAR(W(Closure::consistent) / 0.0254766, 1, 3e-5);
   EXPECT_NEAR(W(Closure::paper) / 0.0343860, 1, 3e-5);
@@ -112,12 +113,12 @@ TEST(FrictionRatio, TendsToTheDiffusionLimit) {
 TEST(FrictionRatio, IsOneWithoutFriction) {
   for (const Closure closure : both_closures)
     for (const double stress : {0.05, 0.0731, 0.5, 3.0})
-      EXPECT_NEAR(evaluate(Measure::origin, closure, stress, 0).value, 1, 1e-6);
+      EXPECT_NEAR(evaluate(SlipVelocityKind::origin, closure, stress, 0).value, 1, 1e-6);
 }
 
 TEST(FrictionRatio, HasDerivativesThatAgreeWithDifferences) {
   for (const Closure closure : both_closures)
-    for (const Measure m : measures)
+    for (const SlipVelocityKind m : measures)
       for (const double damping : {0.3, 1.5, 2.2, 20.0, 5e3, 1e7, 1e9})
         for (const double stress : {0.07, 0.9, 2.5}) {
           const auto value = [&](double s, double g) { return evaluate(m, closure, s, g).value; };
@@ -132,7 +133,7 @@ TEST(FrictionRatio, HasDerivativesThatAgreeWithDifferences) {
 
 TEST(FrictionRatio, HasTheSameValueWithoutDerivatives) {
   for (const Closure closure : both_closures)
-    for (const Measure m : measures)
+    for (const SlipVelocityKind m : measures)
       for (const double damping : {0.0, 0.3, 1.5, 20.0, 1e7, 1e9})
         for (const double stress : {0.07, 0.9, 2.5})
           EXPECT_DOUBLE_EQ(evaluate_value(m, closure, stress, damping), evaluate(m, closure, stress, damping).value);
@@ -140,7 +141,7 @@ TEST(FrictionRatio, HasTheSameValueWithoutDerivatives) {
 
 TEST(FrictionRatio, FallsSmoothlyWithFriction) {
   for (const Closure closure : both_closures)
-    for (const Measure m : measures)
+    for (const SlipVelocityKind m : measures)
       for (const double stress : {0.05, 0.12, 0.5, 1.3, 3.0}) {
         double last = evaluate(m, closure, stress, 0).value;
         for (double u = 0.01; u < 20; u += 0.01) {
@@ -154,7 +155,7 @@ TEST(FrictionRatio, FallsSmoothlyWithFriction) {
 
 TEST(FrictionRatio, RejectsArgumentsOutsideTheTable) {
   const auto at = [](double stress, double damping) {
-    return evaluate(Measure::origin, Closure::consistent, stress, damping);
+    return evaluate(SlipVelocityKind::origin, Closure::consistent, stress, damping);
   };
   EXPECT_THROW(at(0.049, 1), InputError);
   EXPECT_THROW(at(3.01, 1), InputError);

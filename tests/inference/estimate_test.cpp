@@ -60,15 +60,15 @@ TEST(Estimate, ReproducesEpisodicTremorAndSlip) {
 
 TEST(Estimate, TurnsRangesIntoExactQuantiles) {
   Observation o;
-  o.rupture_velocity_m_s = Measured{1000, 3000};
-  o.slip_velocity_m_s = Measured{0.5, 0.5};
+  o.rupture_velocity_m_s = MeasuredValue{1000, 3000};
+  o.slip_velocity_m_s = MeasuredValue{0.5, 0.5};
   const Estimate e = estimate(o, {});
   const auto at = [&](double V) { return rupture::from_rupture_velocity(V / e.speed); };
   EXPECT_DOUBLE_EQ(e.rupture_velocity->value, 2000 / e.speed);
   EXPECT_DOUBLE_EQ(e.stress->interval->low, at(1100).stress);
   EXPECT_DOUBLE_EQ(e.stress->interval->high, at(2900).stress);
   EXPECT_DOUBLE_EQ(e.contact_ratio->interval->low, pi * 0.5 / (e.speed * at(2900).slip_velocity));
-  o.slip_velocity_m_s = Measured{0.4, 0.6};
+  o.slip_velocity_m_s = MeasuredValue{0.4, 0.6};
   const Estimate both = estimate(o, {});
   EXPECT_DOUBLE_EQ(both.stress->interval->low, at(1100).stress);  // depends only on the rupture velocity
   EXPECT_FALSE(both.contact_ratio->interval);                     // depends on both
@@ -77,7 +77,7 @@ TEST(Estimate, TurnsRangesIntoExactQuantiles) {
 
 TEST(Estimate, WarnsOfAssumedConstants) {
   Observation o;
-  o.rupture_velocity_m_s = Measured{3000, 3000};
+  o.rupture_velocity_m_s = MeasuredValue{3000, 3000};
   EXPECT_TRUE(mentions(estimate(o, {}).warnings, "assumed: poisson_ratio 0.3, p_wave_speed 6000 m/s"));
   medium::Defaults stated;
   stated.stated_speed = stated.stated_poisson = stated.stated_modulus = true;
@@ -92,7 +92,7 @@ TEST(Estimate, WarnsOfAssumedConstants) {
 
 TEST(Estimate, LeavesUnidentifiableQuantitiesAbsent) {
   Observation o;
-  o.slip_velocity_m_s = Measured{0.5, 0.5};
+  o.slip_velocity_m_s = MeasuredValue{0.5, 0.5};
   const Estimate none = estimate(o, {});
   EXPECT_FALSE(none.stress);
   EXPECT_FALSE(none.contact_ratio);
@@ -107,7 +107,7 @@ TEST(Estimate, RejectsUnphysicalObservations) {
   Observation o;
   o.file = "f.csv";
   o.line = 7;
-  o.rupture_velocity_m_s = Measured{6000, 6000};
+  o.rupture_velocity_m_s = MeasuredValue{6000, 6000};
   try {
     estimate(o, {});
     FAIL();
@@ -116,7 +116,7 @@ TEST(Estimate, RejectsUnphysicalObservations) {
     EXPECT_EQ(error.complaint().line, 7u);
     EXPECT_NE(error.complaint().allowed.find("5421.05"), std::string::npos);
   }
-  o.rupture_velocity_m_s = Measured{3000, 3000};
+  o.rupture_velocity_m_s = MeasuredValue{3000, 3000};
   o.poisson_ratio = 0.5;
   EXPECT_THROW(estimate(o, {}), InputError);
   o.poisson_ratio = 0.25;
@@ -126,14 +126,14 @@ TEST(Estimate, RejectsUnphysicalObservations) {
 
 TEST(Estimate, WarnsOfAContactRatioAbovePlastic) {
   Observation o;
-  o.rupture_velocity_m_s = Measured{0.1, 0.1};
-  o.slip_velocity_m_s = Measured{0.1, 0.1};
+  o.rupture_velocity_m_s = MeasuredValue{0.1, 0.1};
+  o.slip_velocity_m_s = MeasuredValue{0.1, 0.1};
   EXPECT_TRUE(mentions(estimate(o, {}).warnings, "exceeds plastic contact"));
 }
 
 TEST(Estimate, KeepsNumbersFiniteForAbsurdSlip) {  // found by fuzzing an .fsp file
   Observation o = from_case("parkfield-2004.toml");
-  o.slip_velocity_m_s = Measured{1e305, 1e305};
+  o.slip_velocity_m_s = MeasuredValue{1e305, 1e305};
   const Estimate e = estimate(o, {});
   EXPECT_FALSE(e.stress_pa);
   EXPECT_TRUE(e.stress);

@@ -21,15 +21,15 @@ using namespace slipfront;
 using namespace slipfront::catalogue;
 using namespace slipfront::inference;
 using friction::Closure;
-using Shape = Measured::Shape;
+using Shape = MeasuredValue::Shape;
 
 constexpr double shear_modulus = 30e9;
 const medium::Defaults defaults{};
 const double c = medium::speed_from_p_wave(defaults.p_wave_speed, defaults.poisson_ratio);
 const double plastic = medium::plastic_contact_ratio(defaults.poisson_ratio);
 
-Measured exact(double x) { return {x, x}; }
-Measured lognormal(double x, double factor) { return {x, x, Shape::lognormal, factor}; }
+MeasuredValue exact(double x) { return {x, x}; }
+MeasuredValue lognormal(double x, double factor) { return {x, x, Shape::lognormal, factor}; }
 
 /// The state of a fault, with its stress and slip velocity.
 struct Truth {
@@ -44,7 +44,7 @@ struct Truth {
     return stress_pa() *
            friction_ratio::stress_drop_share(friction_ratio::Drop::origin, closure, stress(), damping).value;
   }
-  double slip_velocity(Measure measure, Closure closure) const {
+  double slip_velocity(SlipVelocityKind measure, Closure closure) const {
     const rupture::Relations r = rupture::from_rupture_velocity(V / c);
     return medium::slip_velocity_unit(c, A) * r.slip_velocity *
            friction_ratio::evaluate(measure, closure, r.stress, damping).value;
@@ -85,7 +85,7 @@ TEST(Posterior, CoversTheTruthInNineOfTenEventsWithKnownContact) {
     const Truth truth = drawn(random);
     Observation o;
     o.name = "event " + std::to_string(n);
-    o.slip_velocity_is = static_cast<Measure>(n % 4);
+    o.slip_velocity_is = static_cast<SlipVelocityKind>(n % 4);
     o.rupture_velocity_is = n % 2 ? RuptureVelocityIs::front : RuptureVelocityIs::characteristic;
     const double V = n % 2 ? truth.front(Closure::consistent) : truth.V;
     o.rupture_velocity_m_s = lognormal(random.lognormal(V, 1.1), 1.1);
@@ -121,7 +121,8 @@ TEST(Posterior, CoversTheTruthInNineOfTenEventsWithKnownFriction) {
     o.name = "event " + std::to_string(n);
     o.rupture_velocity_is = RuptureVelocityIs::characteristic;
     o.rupture_velocity_m_s = lognormal(random.lognormal(truth.V, 1.1), 1.1);
-    o.slip_velocity_m_s = lognormal(random.lognormal(truth.slip_velocity(Measure::origin, Closure::paper), 1.15), 1.15);
+    o.slip_velocity_m_s =
+        lognormal(random.lognormal(truth.slip_velocity(SlipVelocityKind::origin, Closure::paper), 1.15), 1.15);
     o.friction_coefficient = lognormal(random.lognormal(C, 2), 2);
     o.duration = exact(duration);
     o.asperity_spacing = spacing;
@@ -156,7 +157,7 @@ struct OnGrid {
 };
 
 /// Integrates prior x likelihood of an event over a grid, and compares it with the samples.
-void expect_posterior_of_grid(Observation o, const Measured& contact) {
+void expect_posterior_of_grid(Observation o, const MeasuredValue& contact) {
   o.contact_ratio = contact.middle();
   o.uncertain_constants.push_back({&medium::Constants::contact_ratio, contact});
   const bool front = o.rupture_velocity_is == RuptureVelocityIs::front;
@@ -174,7 +175,7 @@ void expect_posterior_of_grid(Observation o, const Measured& contact) {
             o.stress_drop_is == StressDropIs::stored ? state.stress_pa() : state.static_drop_pa(Closure::consistent);
         const double weight =
             o.rupture_velocity_m_s->likelihood(seen) * contact.likelihood(A) *
-            o.slip_velocity_m_s->likelihood(state.slip_velocity(Measure::origin, Closure::consistent)) *
+            o.slip_velocity_m_s->likelihood(state.slip_velocity(SlipVelocityKind::origin, Closure::consistent)) *
             o.stress_drop->likelihood(drop);
         grid.A.emplace_back(A, weight);
         grid.u.emplace_back(u, weight);
@@ -192,18 +193,18 @@ void expect_posterior_of_grid(Observation o, const Measured& contact) {
 
 TEST(Posterior, AgreesWithIntegrationOverAGrid) {
   Observation o;
-  o.rupture_velocity_m_s = Measured{3000, 3000, Shape::normal, 150};
+  o.rupture_velocity_m_s = MeasuredValue{3000, 3000, Shape::normal, 150};
   o.slip_velocity_m_s = lognormal(0.5, 1.2);
-  const Measured contact{0.01, 0.01, Shape::normal, 0.002};
+  const MeasuredValue contact{0.01, 0.01, Shape::normal, 0.002};
   o.rupture_velocity_is = RuptureVelocityIs::characteristic;
   o.stress_drop_is = StressDropIs::stored;
-  o.stress_drop = Measured{50e6, 120e6};
+  o.stress_drop = MeasuredValue{50e6, 120e6};
   expect_posterior_of_grid(o, contact);
   o.rupture_velocity_is = RuptureVelocityIs::front;
   o.stress_drop_is = StressDropIs::static_drop;
   o.stress_drop = lognormal(15e6, 1.5);
   expect_posterior_of_grid(o, contact);
-  o.slip_velocity_m_s = Measured{0.5, 0.5, Shape::normal, 0.25};
+  o.slip_velocity_m_s = MeasuredValue{0.5, 0.5, Shape::normal, 0.25};
   expect_posterior_of_grid(o, contact);
 }
 
@@ -218,7 +219,7 @@ TEST(Posterior, SolvesExactObservations) {
   o.duration = exact(10);
   o.asperity_spacing = 0.5;
   for (const Closure closure : {Closure::consistent, Closure::paper})
-    for (const Measure m : friction_ratio::all_measures) {
+    for (const SlipVelocityKind m : friction_ratio::all_slip_velocity_kinds) {
       o.slip_velocity_is = m;
       o.slip_velocity_m_s = exact(truth.slip_velocity(m, closure));
       const Posterior p = *posterior(o, defaults, {.samples = 10, .closure = closure});
@@ -233,7 +234,7 @@ TEST(Posterior, SolvesExactObservations) {
 TEST(Posterior, WeighsExactObservationsLikeThoseWithSmallErrors) {
   Observation o;
   o.rupture_velocity_is = RuptureVelocityIs::characteristic;
-  o.rupture_velocity_m_s = Measured{1000, 3200};
+  o.rupture_velocity_m_s = MeasuredValue{1000, 3200};
   o.slip_velocity_m_s = exact(0.2);
   o.contact_ratio = 0.01;
   const Posterior p = *posterior(o, defaults, {.samples = 4000});
@@ -280,15 +281,16 @@ TEST(Posterior, NotesUnidentifiableQuantities) {
   Observation o;
   o.name = "velocities";
   o.rupture_velocity_is = RuptureVelocityIs::characteristic;
-  o.rupture_velocity_m_s = Measured{3000, 3000, Shape::normal, 100};
+  o.rupture_velocity_m_s = MeasuredValue{3000, 3000, Shape::normal, 100};
   o.slip_velocity_m_s = exact(0.5);
   const Posterior p = *posterior(o, defaults, {});
   EXPECT_FALSE(p.friction_identified);
   EXPECT_GT(*p.damping_number_prior_share, 0.4);  // A cannot exceed plastic contact
   ASSERT_GE(p.trade_off.size(), 4u);
   for (const TradeOff& t : p.trade_off)
-    EXPECT_NEAR(Truth({3000, t.contact_ratio, t.damping_number}).slip_velocity(Measure::origin, Closure::consistent),
-                0.5, 1e-6);
+    EXPECT_NEAR(
+        Truth({3000, t.contact_ratio, t.damping_number}).slip_velocity(SlipVelocityKind::origin, Closure::consistent),
+        0.5, 1e-6);
   ASSERT_FALSE(p.notes.empty());
   EXPECT_NE(p.notes.front().find("trade off"), std::string::npos);
 
@@ -329,7 +331,7 @@ TEST(Posterior, RejectsContradictoryObservations) {
 TEST(Posterior, DerivesTheSeedFromTheEvent) {
   Observation o;
   o.name = "a";
-  o.rupture_velocity_m_s = Measured{2000, 3000};
+  o.rupture_velocity_m_s = MeasuredValue{2000, 3000};
   const Posterior once = *posterior(o, defaults, {}), again = *posterior(o, defaults, {});
   ASSERT_TRUE(once.stress_bound && again.stress_bound);
   EXPECT_EQ(once.stress_bound->low, again.stress_bound->low);
@@ -338,7 +340,7 @@ TEST(Posterior, DerivesTheSeedFromTheEvent) {
   o.name = "b";
   o.line = 7;
   EXPECT_EQ(once.seed, posterior(o, defaults, {})->seed);
-  o.rupture_velocity_m_s = Measured{2000, 3001};
+  o.rupture_velocity_m_s = MeasuredValue{2000, 3001};
   EXPECT_NE(once.seed, posterior(o, defaults, {})->seed);
 }
 
@@ -382,7 +384,7 @@ TEST(Posterior, StatesWhichObservationsAreInTension) {
 
 /// A velocity of the fault, a slip velocity and a contact ratio that contradict each other.
 struct Contradiction {
-  Measured V, w, A;
+  MeasuredValue V, w, A;
 
   Observation observation() const {
     Observation o;
@@ -395,7 +397,7 @@ struct Contradiction {
   }
 
   /// The probability that a repeated observation of x is below the actual one.
-  static double below(const Measured& m, double x) {
+  static double below(const MeasuredValue& m, double x) {
     const double spread = m.shape == Shape::split && x < m.low ? m.spread_below : m.spread;
     const double z = m.shape == Shape::lognormal ? std::log(m.low / x) / std::log(spread) : (m.low - x) / spread;
     return std::erfc(-z / std::sqrt(2.0)) / 2;
@@ -487,7 +489,7 @@ TEST(Posterior, ComputesTensionsAsADenseGridDoes) {
   }
 }
 
-Measured with_random_shape(Random& random, double x, double error) {
+MeasuredValue with_random_shape(Random& random, double x, double error) {
   switch (static_cast<int>(random.uniform(0, 3))) {
     case 0:
       return {x, x, Shape::normal, error * x};
@@ -522,8 +524,8 @@ TEST(Posterior, HasIntervalsForLargeNormalErrors) {
   for (const double share : {0.1, 0.4, 0.6})
     for (const bool of_slip : {false, true}) {
       Observation o;
-      o.rupture_velocity_m_s = Measured{2000, 2000, Shape::normal, of_slip ? 200 : 2000 * share};
-      o.slip_velocity_m_s = Measured{0.5, 0.5, Shape::normal, of_slip ? 0.5 * share : 0.05};
+      o.rupture_velocity_m_s = MeasuredValue{2000, 2000, Shape::normal, of_slip ? 200 : 2000 * share};
+      o.slip_velocity_m_s = MeasuredValue{0.5, 0.5, Shape::normal, of_slip ? 0.5 * share : 0.05};
       const Posterior p = *posterior(o, defaults, {});
       ASSERT_TRUE(p.suffices && p.contact_ratio) << share;
       EXPECT_GT(p.contact_ratio->low, 2e-4) << share;

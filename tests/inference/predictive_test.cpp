@@ -9,7 +9,7 @@ namespace {
 
 using namespace slipfront::catalogue;
 using namespace slipfront::inference;
-using Shape = Measured::Shape;
+using Shape = MeasuredValue::Shape;
 
 constexpr double one_sigma = 0.8413447460685429;  // share of a normal distribution below one standard deviation
 
@@ -22,7 +22,7 @@ TEST(Predictive, RepeatsAnObservationWithItsError) {
 
 /// The value 3 +0.3/-0.1 allows a true value that is smaller by 0.1. It is then above the true value by 0.1.
 TEST(Predictive, RepeatsUnequalErrorsOnTheirSides) {
-  const Measured unequal{3, 3, Shape::split, 0.3, 0.1};
+  const MeasuredValue unequal{3, 3, Shape::split, 0.3, 0.1};
   EXPECT_NEAR(repeated(unequal, 5, one_sigma), 5.1, 1e-12);
   EXPECT_NEAR(repeated(unequal, 5, 1 - one_sigma), 4.7, 1e-12);
   EXPECT_NEAR(repeated(unequal, 5, 0.5), 5, 1e-12);
@@ -33,9 +33,9 @@ TEST(Predictive, RepeatsUnequalErrorsOnTheirSides) {
 /// The share of repeated observations below the observed one is the posterior predictive check.
 TEST(Predictive, AgreesWithThePredictiveCheck) {
   Observation o;
-  o.rupture_velocity_m_s = Measured{2700, 2700, Shape::normal, 300};
-  o.slip_velocity_m_s = Measured{0.5, 0.5, Shape::lognormal, 1.5};
-  o.stress_drop = Measured{5e6, 5e6, Shape::lognormal, 1.5};
+  o.rupture_velocity_m_s = MeasuredValue{2700, 2700, Shape::normal, 300};
+  o.slip_velocity_m_s = MeasuredValue{0.5, 0.5, Shape::lognormal, 1.5};
+  o.stress_drop = MeasuredValue{5e6, 5e6, Shape::lognormal, 1.5};
   const auto p = posterior(o, {}, {.draws = 4000});
   ASSERT_TRUE(p && p->suffices);
   ASSERT_EQ(p->predictions.size(), 3u);
@@ -51,9 +51,9 @@ TEST(Predictive, AgreesWithThePredictiveCheck) {
 
 TEST(Predictive, DrawsAsManyStatesFromThePrior) {
   Observation o;
-  o.rupture_velocity_m_s = Measured{2700, 2700, Shape::normal, 300};
-  o.slip = Measured{1, 1, Shape::lognormal, 1.5};
-  o.duration = Measured{3, 3, Shape::normal, 1.5};  // one in 44 of its quantiles is negative
+  o.rupture_velocity_m_s = MeasuredValue{2700, 2700, Shape::normal, 300};
+  o.slip = MeasuredValue{1, 1, Shape::lognormal, 1.5};
+  o.duration = MeasuredValue{3, 3, Shape::normal, 1.5};  // one in 44 of its quantiles is negative
   const auto p = posterior(o, {}, {.draws = 500});
   ASSERT_TRUE(p && p->suffices);
   ASSERT_EQ(p->prior_draws.size(), 500u);

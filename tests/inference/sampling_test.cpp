@@ -63,7 +63,7 @@ TEST(WeightedSamples, CountsTheDistanceFromARangeInItsStandardDeviations) {
 
 slipfront::catalogue::Observation observed_front() {
   slipfront::catalogue::Observation o;
-  o.rupture_velocity_m_s = slipfront::catalogue::Measured{3000, 3000};
+  o.rupture_velocity_m_s = slipfront::catalogue::MeasuredValue{3000, 3000};
   return o;
 }
 
@@ -106,12 +106,12 @@ TEST(PulseModel, SlopeIsThatOfNeighbouringObservations) {
 
 /// Far above the observed value, a normal error of 30 % counts as a factor of exp(0.3).
 TEST(Evidence, CanExcludeValuesFarAboveThoseWithNormalErrors) {
-  const auto likelihood = [](const slipfront::catalogue::Measured& m, double x, bool falls) {
+  const auto likelihood = [](const slipfront::catalogue::MeasuredValue& m, double x, bool falls) {
     const sampled::Evidence e{sampled::Source::contact, "contact_ratio", m, 0.2};
     return e.blurred_likelihood(std::log(x), 0.4, falls);
   };
-  const slipfront::catalogue::Measured normal{2, 2, slipfront::catalogue::Measured::Shape::normal, 0.6},
-      lognormal{2, 2, slipfront::catalogue::Measured::Shape::lognormal, std::exp(0.3)};
+  const slipfront::catalogue::MeasuredValue normal{2, 2, slipfront::catalogue::MeasuredValue::Shape::normal, 0.6},
+      lognormal{2, 2, slipfront::catalogue::MeasuredValue::Shape::lognormal, std::exp(0.3)};
   for (const double x : {10.0, 40.0, 200.0}) {
     EXPECT_NEAR(likelihood(normal, x, true) / likelihood(lognormal, x, true), 1, 1e-12) << x;
     EXPECT_GT(likelihood(normal, x, false), 0.05) << x;
@@ -121,10 +121,10 @@ TEST(Evidence, CanExcludeValuesFarAboveThoseWithNormalErrors) {
 
 /// Without a blur, the likelihood of a value is that of the observation on either side.
 TEST(Evidence, HasTheLikelihoodOfItsObservationOnEitherSide) {
-  using slipfront::catalogue::Measured;
-  for (const Measured& m :
-       {Measured{2, 2, Measured::Shape::normal, 0.2}, Measured{2, 2, Measured::Shape::split, 0.2, 0.4},
-        Measured{2, 2, Measured::Shape::lognormal, 1.2}, Measured{1.9, 2.1}}) {
+  using slipfront::catalogue::MeasuredValue;
+  for (const MeasuredValue& m : {MeasuredValue{2, 2, MeasuredValue::Shape::normal, 0.2},
+                                 MeasuredValue{2, 2, MeasuredValue::Shape::split, 0.2, 0.4},
+                                 MeasuredValue{2, 2, MeasuredValue::Shape::lognormal, 1.2}, MeasuredValue{1.9, 2.1}}) {
     const sampled::Evidence e{sampled::Source::contact, "contact_ratio", m, 0};
     for (const double x : {1.6, 1.95, 2.0, 2.05, 2.4})
       EXPECT_NEAR(e.blurred_likelihood(std::log(x), 0, false), m.likelihood(x), 1e-12) << x;
@@ -133,7 +133,7 @@ TEST(Evidence, HasTheLikelihoodOfItsObservationOnEitherSide) {
 
 /// A prediction that is uncertain by a factor of e^3 may be near the observed value.
 TEST(Evidence, DoesNotExcludeSmallUncertainPredictions) {
-  const slipfront::catalogue::Measured m{2, 2, slipfront::catalogue::Measured::Shape::normal, 0.2};
+  const slipfront::catalogue::MeasuredValue m{2, 2, slipfront::catalogue::MeasuredValue::Shape::normal, 0.2};
   const sampled::Evidence e{sampled::Source::contact, "contact_ratio", m, 0};
   EXPECT_GT(e.blurred_likelihood(std::log(1e-6), 3, false), 0.9);
   EXPECT_LT(e.blurred_likelihood(std::log(1e-6), 0.3, false), 1e-20);
@@ -161,7 +161,7 @@ TEST(WeightedSamples, FindTheDistanceOfTheNearestPrediction) {
     samples.accepted.push_back({1, sampled::unknown_state(), {}});
     samples.accepted.back().state.rupture_velocity_m_s = V;
   }
-  const slipfront::catalogue::Measured normal{3000, 3000, slipfront::catalogue::Measured::Shape::normal, 50};
+  const slipfront::catalogue::MeasuredValue normal{3000, 3000, slipfront::catalogue::MeasuredValue::Shape::normal, 50};
   EXPECT_NEAR(samples.nearest_deviation(normal, {}).value(), 2, 1e-12);
   EXPECT_FALSE(samples.nearest_deviation({3000, 3000}, {}));
 }
@@ -182,7 +182,7 @@ TEST(WeightedSamples, SufficeForAQuantityWhoseHeavySamplesAreNearItsMedian) {
 TEST(WeightedSamples, AllCountIfTheirWeightsAreEqual) {
   slipfront::catalogue::Observation o = observed_front();
   o.rupture_velocity_is = RuptureVelocityIs::characteristic;
-  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.5, 0.5};
+  o.slip_velocity_m_s = slipfront::catalogue::MeasuredValue{0.5, 0.5};
   sampled::Sampler sampler(o, {}, {.samples = 64});
   const sampled::WeightedSamples samples = sampled::draw_samples(sampler, 64, 64);
   EXPECT_EQ(samples.accepted.size(), 64u);
@@ -191,13 +191,13 @@ TEST(WeightedSamples, AllCountIfTheirWeightsAreEqual) {
 
 /// The other observations agree with a small part of this range of velocities. The cells move there.
 TEST(Sampler, FindsTheVelocitiesOfAWideRangeThatAgreeWithTheOthers) {
-  using slipfront::catalogue::Measured;
+  using slipfront::catalogue::MeasuredValue;
   slipfront::catalogue::Observation o;
-  o.rupture_velocity_m_s = Measured{1, 3300};
-  o.slip_velocity_m_s = Measured{0.5, 0.5, Measured::Shape::lognormal, 1.1};
+  o.rupture_velocity_m_s = MeasuredValue{1, 3300};
+  o.slip_velocity_m_s = MeasuredValue{0.5, 0.5, MeasuredValue::Shape::lognormal, 1.1};
   o.contact_ratio = 0.01;
   o.uncertain_constants = {
-      {&slipfront::medium::Constants::contact_ratio, Measured{0.01, 0.01, Measured::Shape::lognormal, 1.1}}};
+      {&slipfront::medium::Constants::contact_ratio, MeasuredValue{0.01, 0.01, MeasuredValue::Shape::lognormal, 1.1}}};
   for (const bool front : {false, true}) {
     o.rupture_velocity_is = front ? RuptureVelocityIs::front : RuptureVelocityIs::characteristic;
     sampled::Sampler sampler(o, {}, {.samples = 1000});
@@ -209,7 +209,7 @@ TEST(Sampler, FindsTheVelocitiesOfAWideRangeThatAgreeWithTheOthers) {
 TEST(WeightedSamples, GiveUpAnEventAfterEightTimesTheFirstSamples) {
   slipfront::catalogue::Observation o = observed_front();
   o.rupture_velocity_is = RuptureVelocityIs::characteristic;
-  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.4, 0.6};
+  o.slip_velocity_m_s = slipfront::catalogue::MeasuredValue{0.4, 0.6};
   o.contact_ratio = 0.01;
   sampled::Sampler sampler(o, {}, {.samples = 16});
   EXPECT_EQ(sampled::draw_samples(sampler, 16, 4096, 1e6).drawn, 128u);
@@ -218,18 +218,18 @@ TEST(WeightedSamples, GiveUpAnEventAfterEightTimesTheFirstSamples) {
 /// The misfit is the sum of the squared distances in standard deviations, at the state where it is least. Two values
 /// that are n standard deviations apart have n^2 / 2. The cells, which have a width, find up to a third less.
 TEST(Sampler, FindsTheLeastMisfitOfItsObservations) {
-  using slipfront::catalogue::Measured;
+  using slipfront::catalogue::MeasuredValue;
   slipfront::catalogue::Observation o = observed_front();
   o.rupture_velocity_is = RuptureVelocityIs::characteristic;
-  o.slip_velocity_m_s = Measured{0.5, 0.5};
+  o.slip_velocity_m_s = MeasuredValue{0.5, 0.5};
   o.contact_ratio = 0.01;
   o.uncertain_constants = {
-      {&slipfront::medium::Constants::contact_ratio, Measured{0.01, 0.01, Measured::Shape::lognormal, 1.1}}};
-  o.hardness = Measured{1, 1};
+      {&slipfront::medium::Constants::contact_ratio, MeasuredValue{0.01, 0.01, MeasuredValue::Shape::lognormal, 1.1}}};
+  o.hardness = MeasuredValue{1, 1};
   const double same = 0.01 / slipfront::medium::plastic_contact_ratio(0.25);
   const auto misfit = [&](double sigmas) {
     const double strength = same * std::pow(1.1, sigmas);
-    o.normal_stress = Measured{strength, strength, Measured::Shape::lognormal, 1.1};
+    o.normal_stress = MeasuredValue{strength, strength, MeasuredValue::Shape::lognormal, 1.1};
     return sampled::Sampler(o, {}, {}).least_misfit();
   };
   EXPECT_GE(misfit(0), 0);
@@ -241,9 +241,9 @@ TEST(Sampler, FindsTheLeastMisfitOfItsObservations) {
 }
 
 TEST(Sampler, BoundsTheStressFromASlipVelocityAndTheContact) {
-  using slipfront::catalogue::Measured;
+  using slipfront::catalogue::MeasuredValue;
   slipfront::catalogue::Observation o;
-  o.slip_velocity_m_s = Measured{0.5, 0.5, Measured::Shape::lognormal, 1.2};
+  o.slip_velocity_m_s = MeasuredValue{0.5, 0.5, MeasuredValue::Shape::lognormal, 1.2};
   o.contact_ratio = 0.01;
   const sampled::Sampler sampler(o, {}, {});
   EXPECT_TRUE(sampler.knows_contact());
@@ -252,7 +252,7 @@ TEST(Sampler, BoundsTheStressFromASlipVelocityAndTheContact) {
 
 TEST(PulseModel, TakesTheStaticDropOfAPulseWithoutFriction) {
   slipfront::catalogue::Observation o = observed_front();
-  o.stress_drop = slipfront::catalogue::Measured{1e6, 1e6};
+  o.stress_drop = slipfront::catalogue::MeasuredValue{1e6, 1e6};
   const auto r = slipfront::rupture::from_rupture_velocity(0.4);
   for (const bool is_static : {true, false}) {
     o.stress_drop_is = is_static ? StressDropIs::static_drop : StressDropIs::stored;
@@ -265,7 +265,7 @@ TEST(PulseModel, TakesTheStaticDropOfAPulseWithoutFriction) {
 TEST(Estimate, TakesTheContactRatioFromTheStaticOrTheStoredDrop) {
   slipfront::catalogue::Observation o = observed_front();
   o.rupture_velocity_is = RuptureVelocityIs::characteristic;
-  o.stress_drop = slipfront::catalogue::Measured{2e6, 2e6};
+  o.stress_drop = slipfront::catalogue::MeasuredValue{2e6, 2e6};
   for (const bool is_static : {true, false}) {
     o.stress_drop_is = is_static ? StressDropIs::static_drop : StressDropIs::stored;
     const sampled::Estimate e = sampled::estimate(o, {});
@@ -282,11 +282,11 @@ TEST(Estimate, WarnsIfOnlyTheErrorOfTheContactRatioIsInRange) {
   o.contact_ratio = 0.9;
   EXPECT_THROW((void)sampled::estimate(o, {}, true), slipfront::InputError);
   o.uncertain_constants.push_back(
-      {&slipfront::medium::Constants::p_wave_speed, slipfront::catalogue::Measured{5900, 6100}});
+      {&slipfront::medium::Constants::p_wave_speed, slipfront::catalogue::MeasuredValue{5900, 6100}});
   EXPECT_THROW((void)sampled::estimate(o, {}, true), slipfront::InputError);
   o.uncertain_constants = {
       {&slipfront::medium::Constants::contact_ratio,
-       slipfront::catalogue::Measured{0.9, 0.9, slipfront::catalogue::Measured::Shape::lognormal, 2}}};
+       slipfront::catalogue::MeasuredValue{0.9, 0.9, slipfront::catalogue::MeasuredValue::Shape::lognormal, 2}}};
   const auto warnings = sampled::estimate(o, {}, true).warnings;
   EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) {
     return w.find("contact_ratio exceeds plastic contact") != std::string::npos;
@@ -296,9 +296,9 @@ TEST(Estimate, WarnsIfOnlyTheErrorOfTheContactRatioIsInRange) {
 TEST(Posterior, SamplesEventsWhoseObservationsNeedIt) {
   slipfront::catalogue::Observation o;
   EXPECT_FALSE(sampled::needs_samples(o));
-  o.normal_stress = slipfront::catalogue::Measured{1e6, 1e6};
+  o.normal_stress = slipfront::catalogue::MeasuredValue{1e6, 1e6};
   EXPECT_FALSE(sampled::needs_samples(o));
-  o.hardness = slipfront::catalogue::Measured{1e9, 1e9};
+  o.hardness = slipfront::catalogue::MeasuredValue{1e9, 1e9};
   EXPECT_TRUE(sampled::needs_samples(o));
   o.normal_stress.reset();
   EXPECT_FALSE(sampled::needs_samples(o));
@@ -310,7 +310,7 @@ TEST(Posterior, SamplesEventsWhoseObservationsNeedIt) {
 TEST(Posterior, SamplesExactVelocitiesIfOneIsThatOfTheFront) {
   slipfront::catalogue::Observation o = observed_front();
   EXPECT_FALSE(sampled::needs_samples(o));
-  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.5, 0.5};
+  o.slip_velocity_m_s = slipfront::catalogue::MeasuredValue{0.5, 0.5};
   EXPECT_TRUE(sampled::needs_samples(o));
   o.rupture_velocity_is = RuptureVelocityIs::characteristic;
   EXPECT_FALSE(sampled::needs_samples(o));
@@ -330,7 +330,7 @@ TEST(Posterior, RejectsSamplesFasterThanTheirMedium) {
   slipfront::catalogue::Observation o = observed_front();
   o.rupture_velocity_is = RuptureVelocityIs::characteristic;
   const double speed = slipfront::medium::speed_from_p_wave(6000, 0.25);
-  o.rupture_velocity_m_s = slipfront::catalogue::Measured{0.9 * speed, 0.999 * speed};
+  o.rupture_velocity_m_s = slipfront::catalogue::MeasuredValue{0.9 * speed, 0.999 * speed};
   o.contact_ratio = 0.01;
   o.p_wave_speed = 6000;
   o.poisson_ratio = 0.25;
@@ -344,9 +344,9 @@ TEST(Posterior, RejectsSamplesFasterThanTheirMedium) {
 TEST(Posterior, DrawsSpacingsBelowAMetre) {
   slipfront::catalogue::Observation o = observed_front();
   o.rupture_velocity_is = RuptureVelocityIs::characteristic;
-  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.5, 0.5};
+  o.slip_velocity_m_s = slipfront::catalogue::MeasuredValue{0.5, 0.5};
   o.contact_ratio = 0.01;
-  o.duration = slipfront::catalogue::Measured{10, 10};
+  o.duration = slipfront::catalogue::MeasuredValue{10, 10};
   o.asperity_spacing = 0.02;
   o.uncertain_constants = {{&slipfront::medium::Constants::asperity_spacing, {0.01, 0.03}}};
   const auto p = *sampled::posterior(o, {}, {.samples = 2000});
@@ -359,8 +359,8 @@ TEST(Posterior, DrawsSpacingsBelowAMetre) {
 
 TEST(Posterior, DrawsPriorStatesWhoseVelocitiesAgree) {
   slipfront::catalogue::Observation o = observed_front();
-  o.rupture_velocity_m_s = slipfront::catalogue::Measured{2900, 3100};
-  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.4, 0.6};
+  o.rupture_velocity_m_s = slipfront::catalogue::MeasuredValue{2900, 3100};
+  o.slip_velocity_m_s = slipfront::catalogue::MeasuredValue{0.4, 0.6};
   o.contact_ratio = 0.01;
   const auto p = *sampled::posterior(o, {}, {.samples = 500, .draws = 20});
   ASSERT_EQ(p.prior_draws.size(), 20u);

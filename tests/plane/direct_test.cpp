@@ -29,7 +29,7 @@ class SingleRing {
     motion_ = stepper_.start(std::move(u));
     stepper_.look_at(motion_, 0, look_);
   }
-  const Look& at(double time) {
+  const Sums& at(double time) {
     stepper_.advance(motion_, time, {});
     stepper_.look_at(motion_, time, look_);
     return look_;
@@ -57,7 +57,7 @@ class SingleRing {
   Sites sites_;
   Stepper stepper_{problem_, sites_, 2};
   Motion motion_;
-  Look look_;
+  Sums look_;
 };
 
 // r cosh(phi) is constant, so that r = R cos(t / R).
@@ -67,7 +67,7 @@ TEST(PlaneDirect, ASingleRingShrinksAsAStringDoes) {
   const double energy = ring.at(0).elastic;
   EXPECT_NEAR(energy / (8 * 2 * pi * R / 4), 1, 2e-3);
   for (const double radius : {35.0, 30.0, 25.0, 20.0}) {
-    const Look& look = ring.at(R * std::acos(radius / R));
+    const Sums& look = ring.at(R * std::acos(radius / R));
     EXPECT_NEAR(ring.radius() / radius, 1, 1e-3) << radius;
     EXPECT_NEAR((look.kinetic + look.elastic) / energy, 1, 1e-4) << radius;
   }

@@ -61,7 +61,7 @@ TEST(Answer, IncludesEveryErrorInTheBoundOfTohoku) {
     const double w = 12 / 40.0 * std::exp(std::log(1.5) * normal(bits) - std::log(1.4) * normal(bits));
     if (!(V > 0 && V < r.estimate->speed)) continue;
     const auto closed = rupture::from_rupture_velocity(V / r.estimate->speed);
-    const double weight = std::min(1.0, V / (Measured::least_even_share * 2000)) / V;
+    const double weight = std::min(1.0, V / (MeasuredValue::least_even_share * 2000)) / V;
     values.emplace_back(40e9 * closed.stress * w / (r.estimate->speed * closed.slip_velocity), weight);
     total += weight;
   }
@@ -207,7 +207,7 @@ TEST(Answer, AveragesFrictionOverTheDuration) {
   const EventResult both = with("rise_time = \"1 s\"\nduration = \"7 s\"\n"), rise = with("rise_time = \"1 s\"\n");
   ASSERT_TRUE(both.estimate && rise.estimate) << both.error << rise.error;
   EXPECT_DOUBLE_EQ(*both.estimate->observed_slip_velocity_m_s, 0.5);
-  EXPECT_EQ(both.observation.measure(), Measure::time_mean);
+  EXPECT_EQ(both.observation.measure(), SlipVelocityKind::time_mean);
   EXPECT_DOUBLE_EQ(both.estimate->damping_number->value, rise.estimate->damping_number->value);
   EXPECT_NEAR(rise.estimate->friction_coefficient->value / both.estimate->friction_coefficient->value, 7, 1e-9);
 }

@@ -9,7 +9,7 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::catalogue;
-using Shape = Measured::Shape;
+using Shape = MeasuredValue::Shape;
 
 results::EventResult evaluated(const std::string& text) {
   results::EventResult result;
@@ -36,7 +36,7 @@ TEST(Derived, SlipIsMomentOverModulusAndArea) {
 
 TEST(Derived, TheErrorOfTheMagnitudeIsAFactorOfTheMoment) {
   const auto r = evaluated("name,Mw,Mw_err,Area (km2),Duration (s)\nA,7,0.1,2000,20\n");
-  const Measured& slip = *r.observation.slip;
+  const MeasuredValue& slip = *r.observation.slip;
   EXPECT_EQ(slip.shape, Shape::lognormal);
   EXPECT_NEAR(slip.low, std::pow(10, 1.5 * 7 + 9.1) / (30e9 * 2e9), 1e-9);
   EXPECT_NEAR(slip.spread, std::pow(10, 0.15), 1e-12);
@@ -44,7 +44,7 @@ TEST(Derived, TheErrorOfTheMagnitudeIsAFactorOfTheMoment) {
 
 TEST(Derived, ErrorsOfLengthAndDurationAddInLn) {
   const auto r = evaluated("name,Length (km),Duration (days)\nA,60 */ 1.2,20 */ 1.3\n");
-  const Measured& velocity = *r.observation.rupture_velocity_m_s;
+  const MeasuredValue& velocity = *r.observation.rupture_velocity_m_s;
   EXPECT_EQ(velocity.shape, Shape::lognormal);
   EXPECT_NEAR(std::log(velocity.spread), std::hypot(std::log(1.2), std::log(1.3)), 1e-12);
 }

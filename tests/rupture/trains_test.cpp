@@ -119,10 +119,12 @@ TEST(Trains, SatisfyTheIdentitiesOfTheAveragedLagrangian) {
   for (int n = 0; n < 10000; ++n) {
     const FilledBands bands = random_bands(draw);
     const BandAverages a = rupture::averages(bands);
-    using Share = rupture::TrainShare;
+    using RankSites = rupture::TrainShare;
     const double small = 1e-12 * a.H;
-    ASSERT_NEAR(share_of(a, &Share::k, &Share::I), a.P, small) << n;
-    ASSERT_NEAR(share_of(a, &Share::omega, &Share::I) + share_of(a, &Share::k, &Share::J), a.H + a.Q, small) << n;
+    ASSERT_NEAR(share_of(a, &RankSites::k, &RankSites::I), a.P, small) << n;
+    ASSERT_NEAR(share_of(a, &RankSites::omega, &RankSites::I) + share_of(a, &RankSites::k, &RankSites::J), a.H + a.Q,
+                small)
+        << n;
     for (const auto& train : a.trains) ASSERT_GT(train.k, std::fabs(train.omega)) << n;
     for (std::size_t j = 0; j < a.speeds.size(); ++j) {
       ASSERT_LT(std::fabs(a.speeds[j]), 1) << n;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lattice/chain/implicit/implicit_chain.hpp"
-#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/observe/totals.hpp"
 
 namespace loaded {
 

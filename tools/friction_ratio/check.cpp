@@ -33,7 +33,7 @@ Logarithms differences(Closure closure, double stress, double damping) {
   const Logarithms from_solver = computed(closure, stress, damping);
   Logarithms error{};
   for (std::size_t m = 0; m < layout::measures; ++m) {
-    const double ours = evaluate(static_cast<Measure>(m), closure, stress, damping).value;
+    const double ours = evaluate(static_cast<SlipVelocityKind>(m), closure, stress, damping).value;
     error[m] = std::fabs(ours / std::exp(from_solver[m]) - 1);
     if (std::isnan(error[m])) error[m] = HUGE_VAL;
   }

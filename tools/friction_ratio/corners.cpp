@@ -70,10 +70,10 @@ layout::Corners find_corners() {
     const auto term = [&](double CornersAt::*u) {
       return coefficient(i, layout::y_nodes, [&](std::size_t n) { return found[n].*u; });
     };
-    result[0][static_cast<std::size_t>(Measure::origin)][i] = term(&CornersAt::origin);
-    result[0][static_cast<std::size_t>(Measure::peak)][i] = term(&CornersAt::peak);
+    result[0][static_cast<std::size_t>(SlipVelocityKind::origin)][i] = term(&CornersAt::origin);
+    result[0][static_cast<std::size_t>(SlipVelocityKind::peak)][i] = term(&CornersAt::peak);
     // The slope of W(0) changes there, and with it the curvature of its mean in time.
-    result[0][static_cast<std::size_t>(Measure::time_mean)][i] = term(&CornersAt::origin);
+    result[0][static_cast<std::size_t>(SlipVelocityKind::time_mean)][i] = term(&CornersAt::origin);
   }
   return result;
 }

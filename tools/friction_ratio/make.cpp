@@ -108,15 +108,15 @@ void print_corners(const layout::Corners& corners) {
 }  // namespace
 
 int make() {
-  const layout::Corners corners = find_corners();
-  Solved solved = nodes_of(corners);
+  const layout::Corners found = find_corners();
+  Solved solved = nodes_of(found);
   const std::string failed = solve_all(solved);
   if (!failed.empty()) {
     std::fprintf(stderr, "friction_ratio_table: %s\n", failed.c_str());
     return 1;
   }
-  print_table(solved, corners);
-  print_corners(corners);
+  print_table(solved, found);
+  print_corners(found);
   return 0;
 }
 

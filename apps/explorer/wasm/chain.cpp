@@ -8,7 +8,7 @@
 #include <numbers>
 #include <span>
 
-#include "lattice/chain/measure/averages.hpp"
+#include "lattice/chain/observe/averages.hpp"
 #include "lattice/chain/scaled_start.hpp"
 #include "scenario.hpp"
 #include "slipfront/error.hpp"

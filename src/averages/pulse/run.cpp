@@ -69,7 +69,7 @@ class Motions {
   std::unique_ptr<Motion> now_;
 };
 
-struct Run::Parts {
+struct Run::Impl {
   output::Schedule schedule;
   Motions motion;
   StepBudget budget;
@@ -82,7 +82,7 @@ struct Run::Parts {
   std::string before_end;
   std::optional<output::Findings> final_findings;  ///< findings of a finished run
 
-  Parts(Problem problem, output::Schedule given)
+  Impl(Problem problem, output::Schedule given)
       : schedule(std::move(given)),
         motion(std::move(problem)),
         budget(steps_to_end(*motion, schedule), schedule.times.back()) {}
@@ -101,16 +101,16 @@ struct Run::Parts {
 };
 
 Run::Run(Problem problem, output::Schedule schedule)
-    : parts_(std::make_unique<Parts>(std::move(problem), std::move(schedule))) {}
+    : parts_(std::make_unique<Impl>(std::move(problem), std::move(schedule))) {}
 
 Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std::vector<output::Snapshot> snapshots)
     : Run(std::move(problem), std::move(schedule)) {
-  Parts& p = *parts_;
+  Impl& p = *parts_;
   p.snapshots = std::move(snapshots);
   restore(p, saved);
 }
 
-void Run::Parts::archive(Archive& a) {
+void Run::Impl::archive(Archive& a) {
   double end = schedule.times.back();
   a(motion, end, aimed_at_end);
   if (aimed_at_end) a(before_end);
@@ -149,7 +149,7 @@ std::vector<std::string> Run::warnings() const {
   return parts_->final_findings ? parts_->final_findings->sentences : parts_->findings().sentences;
 }
 
-void Run::Parts::take_snapshot() {
+void Run::Impl::take_snapshot() {
   output::Snapshot s = motion->observe(schedule);
   if (motion.may_be_many() && s.profile.trains.empty())
     for (const double k : s.profile.k) s.profile.trains.push_back(k > 0 ? 1 : 0);
@@ -157,7 +157,7 @@ void Run::Parts::take_snapshot() {
   snapshots.push_back(std::move(s));
 }
 
-bool Run::Parts::advance_to(double target, const std::function<bool()>& interrupted) {
+bool Run::Impl::advance_to(double target, const std::function<bool()>& interrupted) {
   const bool last = snapshots.size() + 1 == schedule.times.size();
   if (last) look_at_end();
   const auto after_step = [&] {
@@ -175,7 +175,7 @@ bool Run::Parts::advance_to(double target, const std::function<bool()>& interrup
 }
 
 bool Run::go(const std::function<bool()>& interrupted) {
-  Parts& p = *parts_;
+  Impl& p = *parts_;
   while (!p.finished()) {
     if (!p.advance_to(p.schedule.times[p.snapshots.size()], interrupted)) return false;
     p.take_snapshot();

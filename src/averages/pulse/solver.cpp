@@ -10,14 +10,14 @@
 namespace slipfront::pulse {
 
 /// The parts refer to each other, so that they do not move when the solver does.
-struct Solver::Parts {
+struct Solver::Impl {
   Problem problem;
   Start start;
   InitialGrid initial;
   Stepper stepper;
   Cells cells;
 
-  explicit Parts(Problem given)
+  explicit Impl(Problem given)
       : problem(std::move(given)),
         start(start_of(problem)),
         initial(problem, start.cells, start.free),
@@ -38,7 +38,7 @@ double Solver::disk_needed(int cells) {
   return sizeof(double) * each * cells;
 }
 
-Solver::Solver(Problem problem) : parts_(std::make_unique<Parts>(std::move(problem))) {}
+Solver::Solver(Problem problem) : parts_(std::make_unique<Impl>(std::move(problem))) {}
 Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;

@@ -70,8 +70,8 @@ class Solver {
   double through_ends() const { return cells().values().through_ends(); }
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> parts_;
 };
 
 }  // namespace slipfront::pulse

@@ -94,7 +94,7 @@ void store(Observation& observation, const Key& key, std::string_view text, std:
   store(observation, key, parse_measured(text, key.dimension, default_unit), text);
 }
 
-void store(Observation& observation, const Key& key, const Measured& measured, std::string_view text) {
+void store(Observation& observation, const Key& key, const MeasuredValue& measured, std::string_view text) {
   const bool positive =
       key.name != "poisson_ratio" && key.name != "moment_magnitude";  // the medium checks Poisson's ratio
   if (positive && !(measured.low > 0))
@@ -107,20 +107,20 @@ void store(Observation& observation, const Key& key, const Measured& measured, s
   }
 }
 
-std::optional<Measured> value_of(const Observation& o, const Key& key) {
+std::optional<MeasuredValue> value_of(const Observation& o, const Key& key) {
   if (key.measured) return o.*key.measured;
   for (const UncertainConstant& c : o.uncertain_constants)
     if (c.member == key.constant) return c.measured;
   const auto& constant = o.*key.constant;
-  return constant ? std::optional(Measured{*constant, *constant}) : std::nullopt;
+  return constant ? std::optional(MeasuredValue{*constant, *constant}) : std::nullopt;
 }
 
 namespace {
 
-using Shape = Measured::Shape;
+using Shape = MeasuredValue::Shape;
 
 /// Standard deviation of ln x; that of a range is of the uniform distribution.
-double log_error(const Measured& m) {
+double log_error(const MeasuredValue& m) {
   switch (m.shape) {
     case Shape::range:
       return m.is_exact() ? 0 : std::log(m.high / m.low) / std::sqrt(12.0);
@@ -135,7 +135,7 @@ double log_error(const Measured& m) {
 }
 
 /// The quantity times an exact number.
-Measured scaled(Measured m, double factor) {
+MeasuredValue scaled(MeasuredValue m, double factor) {
   m.low *= factor;
   m.high *= factor;
   if (m.shape != Shape::lognormal) m.spread *= factor;
@@ -145,7 +145,7 @@ Measured scaled(Measured m, double factor) {
 
 /// a times b^power, for power 1 or -1. If both have errors, the result is lognormal, and the errors of ln add in
 /// quadrature.
-Measured product(const Measured& a, const Measured& b, int power) {
+MeasuredValue product(const MeasuredValue& a, const MeasuredValue& b, int power) {
   const double middle = power > 0 ? b.middle() : 1 / b.middle();
   if (b.is_exact()) return scaled(a, middle);
   if (a.is_exact() && power > 0) return scaled(b, a.low);
@@ -157,7 +157,7 @@ Measured product(const Measured& a, const Measured& b, int power) {
 /// M0 = 10^(1.5 Mw + 9.1) N m, the standard of IASPEI.
 double moment_of(double magnitude) { return std::pow(10.0, 1.5 * magnitude + 9.1); }
 
-Measured moment_of(const Measured& m) {
+MeasuredValue moment_of(const MeasuredValue& m) {
   const double moment = moment_of(m.middle());
   if (m.is_exact()) return {moment, moment};
   if (m.shape == Shape::range) return {moment_of(m.low), moment_of(m.high)};
@@ -180,8 +180,8 @@ void derive_slip(Observation& o, double shear_modulus) {
     area_is = "rupture_length rupture_width";
   }
   if (!area) return;
-  const Measured moment = o.moment ? *o.moment : moment_of(*o.moment_magnitude);
-  const Measured slip = scaled(product(moment, *area, -1), 1 / shear_modulus);
+  const MeasuredValue moment = o.moment ? *o.moment : moment_of(*o.moment_magnitude);
+  const MeasuredValue slip = scaled(product(moment, *area, -1), 1 / shear_modulus);
   if (!std::isfinite(slip.low) || !std::isfinite(slip.high) || !(slip.low > 0)) return;
   o.slip = slip;
   o.warnings.push_back("slip is moment / (shear_modulus " + area_is + ")" +
@@ -190,7 +190,7 @@ void derive_slip(Observation& o, double shear_modulus) {
 
 void derive_rupture_velocity(Observation& o, double speed) {
   if (o.rupture_velocity_m_s || is_bounded(o, "rupture_velocity") || !o.rupture_length || !o.duration) return;
-  const Measured velocity = product(*o.rupture_length, *o.duration, -1);
+  const MeasuredValue velocity = product(*o.rupture_length, *o.duration, -1);
   if (!std::isfinite(velocity.high) || !(velocity.low > 0)) return;
   if (!(velocity.high < speed)) {
     o.warnings.push_back("rupture_length / duration is " + digits(velocity.middle()) +
@@ -206,7 +206,7 @@ void derive_rupture_velocity(Observation& o, double speed) {
 
 void derive_stress_drop(Observation& o) {
   if (o.stress_drop || !o.shear_stress || !o.shear_stress_after) return;
-  const Measured &before = *o.shear_stress, &after = *o.shear_stress_after;
+  const MeasuredValue &before = *o.shear_stress, &after = *o.shear_stress_after;
   const double drop = before.middle() - after.middle();
   if (!(drop > 0))
     throw InputError({.key = "shear_stress_after",
@@ -214,7 +214,7 @@ void derive_stress_drop(Observation& o) {
                       .problem = "not below the shear stress before",
                       .allowed = "< " + digits(before.middle()) + " Pa"});
   const double error = std::hypot(before.middle() * log_error(before), after.middle() * log_error(after));
-  o.stress_drop = error > 0 ? Measured{drop, drop, Shape::normal, error} : Measured{drop, drop};
+  o.stress_drop = error > 0 ? MeasuredValue{drop, drop, Shape::normal, error} : MeasuredValue{drop, drop};
 }
 
 void derive(Observation& observation, double shear_modulus, double speed) {

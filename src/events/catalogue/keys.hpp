@@ -14,8 +14,8 @@ namespace slipfront::catalogue {
 struct Key {
   std::string_view name;
   medium::Dimension dimension;
-  std::optional<Measured> Observation::*measured = nullptr;      ///< an observed quantity, > 0, which may be uncertain
-  std::optional<double> medium::Constants::*constant = nullptr;  ///< a constant of the medium
+  std::optional<MeasuredValue> Observation::*measured = nullptr;  ///< an observed quantity, > 0, which may be uncertain
+  std::optional<double> medium::Constants::*constant = nullptr;   ///< a constant of the medium
 };
 
 /// All quantities of events; the observed ones come first.
@@ -33,10 +33,10 @@ void store_text(Observation& observation, std::string_view key, const std::strin
 /// or a quantity that is not positive.
 void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit);
 /// Like the function above, for a value that is parsed already. `text` is the value as the user wrote it.
-void store(Observation& observation, const Key& key, const Measured& measured, std::string_view text);
+void store(Observation& observation, const Key& key, const MeasuredValue& measured, std::string_view text);
 
 /// The value of a quantity. Absent if the observation has none.
-std::optional<Measured> value_of(const Observation& observation, const Key& key);
+std::optional<MeasuredValue> value_of(const Observation& observation, const Key& key);
 
 /// Fills in quantities that follow from others, with a warning for each.
 ///

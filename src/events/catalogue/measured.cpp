@@ -20,7 +20,7 @@ double deviate(double p) { return -std::numbers::sqrt2 * boost::math::erfc_inv(2
 
 }  // namespace
 
-double Measured::quantile(double p) const {
+double MeasuredValue::quantile(double p) const {
   switch (shape) {
     case Shape::range:
       break;
@@ -37,7 +37,7 @@ double Measured::quantile(double p) const {
   return low + p * (high - low);
 }
 
-double Measured::share_below(double x) const {
+double MeasuredValue::share_below(double x) const {
   const auto below = [](double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; };
   switch (shape) {
     case Shape::range:
@@ -55,7 +55,7 @@ double Measured::share_below(double x) const {
   return std::clamp((x - low) / (high - low), 0.0, 1.0);
 }
 
-double Measured::likelihood(double x) const {
+double MeasuredValue::likelihood(double x) const {
   double z = 0;
   switch (shape) {
     case Shape::range:
@@ -75,7 +75,7 @@ double Measured::likelihood(double x) const {
   return (falls ? x / (least_even_share * low) : 1) * std::exp(-z * z / 2);
 }
 
-double Measured::likelihood_of_log(double ln_x) const {
+double MeasuredValue::likelihood_of_log(double ln_x) const {
   if (shape != Shape::lognormal) return likelihood(std::exp(ln_x));
   const double z = (ln_x - std::log(low)) / std::log(spread);
   return std::exp(-z * z / 2);
@@ -83,14 +83,14 @@ double Measured::likelihood_of_log(double ln_x) const {
 
 namespace {
 
-using Shape = Measured::Shape;
+using Shape = MeasuredValue::Shape;
 
 constexpr const char* forms =
     "such as 3.0 +- 0.2 km/s, 3.0 +- 10 % km/s, 3.0 +0.3/-0.1 km/s, 3.0(2) km/s, 3.0 */ 1.2 km/s, 2.8..3.2 km/s, "
     "lognormal(3.0, 1.2) km/s";
 
 /// The parts of a text such as "3.0 +- 0.2 km/s", before its numbers and its unit are read.
-struct Parts {
+struct ValueParts {
   std::string first, second, unit;
   Shape shape;
   bool percent = false;    ///< the second number is a percentage of the first
@@ -129,7 +129,7 @@ std::string one_unit(std::string_view a, std::string_view b) {
 }
 
 /// "2.70(12) km/s": the digits in parentheses are the error of the last digits.
-std::optional<Parts> concise(std::string_view text) {
+std::optional<ValueParts> concise(std::string_view text) {
   std::string_view rest = text;
   const std::string first = take_number(rest, true);
   if (first.empty()) return std::nullopt;
@@ -143,8 +143,8 @@ std::optional<Parts> concise(std::string_view text) {
     throw InputError({.problem = "the parentheses are not understood", .allowed = forms});
   const auto point = first.find('.');
   const std::size_t decimals = point == std::string::npos ? 0 : first.size() - point - 1;
-  return Parts{first, std::string(inside) + "e-" + std::to_string(decimals),
-               std::string(trimmed(rest.substr(close + 1))), Shape::normal};
+  return ValueParts{first, std::string(inside) + "e-" + std::to_string(decimals),
+                    std::string(trimmed(rest.substr(close + 1))), Shape::normal};
 }
 
 /// Removes the sign and the number behind it. Empty if they are not there.
@@ -157,9 +157,9 @@ std::string take_error(std::string_view& text, char sign) {
 }
 
 /// "2.7 +0.3/-0.1 km/s", "2.7 (-0.1, +0.3) km/s": unequal errors, in any order.
-std::optional<Parts> unequal(std::string_view text) {
+std::optional<ValueParts> unequal(std::string_view text) {
   std::string_view rest = text;
-  Parts parts{take_number(rest, true), {}, {}, Shape::split};
+  ValueParts parts{take_number(rest, true), {}, {}, Shape::split};
   if (parts.first.empty()) return std::nullopt;
   const auto open = rest.find('('), plus = rest.find('+');
   if (plus == std::string_view::npos) return std::nullopt;
@@ -180,7 +180,7 @@ std::optional<Parts> unequal(std::string_view text) {
   return parts;
 }
 
-std::optional<Parts> named(std::string_view text) {
+std::optional<ValueParts> named(std::string_view text) {
   const auto open = text.find('('), comma = text.find(',', open), close = text.find(')', open);
   if (open == std::string::npos) return std::nullopt;
   const std::string name(trimmed(text.substr(0, open)));
@@ -189,15 +189,15 @@ std::optional<Parts> named(std::string_view text) {
     throw InputError(
         {.problem = known ? "not two numbers in parentheses" : "unknown distribution '" + name + "'",
          .allowed = known ? std::string(forms) : nearest_or_all(name, {"normal", "lognormal", "uniform"})});
-  return Parts{std::string(trimmed(text.substr(open + 1, comma - open - 1))),
-               std::string(trimmed(text.substr(comma + 1, close - comma - 1))),
-               std::string(trimmed(text.substr(close + 1))),
-               name == "normal"      ? Shape::normal
-               : name == "lognormal" ? Shape::lognormal
-                                     : Shape::range};
+  return ValueParts{std::string(trimmed(text.substr(open + 1, comma - open - 1))),
+                    std::string(trimmed(text.substr(comma + 1, close - comma - 1))),
+                    std::string(trimmed(text.substr(close + 1))),
+                    name == "normal"      ? Shape::normal
+                    : name == "lognormal" ? Shape::lognormal
+                                          : Shape::range};
 }
 
-std::optional<Parts> with_sign(std::string_view text) {
+std::optional<ValueParts> with_sign(std::string_view text) {
   static constexpr std::pair<std::string_view, Shape> signs[] = {{"+-", Shape::normal},
                                                                  {"+/-", Shape::normal},
                                                                  {"\xC2\xB1", Shape::normal},
@@ -210,7 +210,7 @@ std::optional<Parts> with_sign(std::string_view text) {
     auto [second, unit] = number_and_unit(trimmed(text.substr(at + sign.size())));
     const bool percent = shape == Shape::normal && unit.starts_with('%');
     if (percent) unit.erase(0, 1);
-    return Parts{first, second, one_unit(unit_of_first, unit), shape, percent};
+    return ValueParts{first, second, one_unit(unit_of_first, unit), shape, percent};
   }
   return std::nullopt;
 }
@@ -223,7 +223,7 @@ double value_of(std::string_view number, std::string_view unit, medium::Dimensio
 }
 
 /// A normal error that is given as a percentage of the value, as in "2.7 +- 10 % km/s".
-Measured in_percent(double value, const Parts& parts, medium::Dimension dimension) {
+MeasuredValue in_percent(double value, const ValueParts& parts, medium::Dimension dimension) {
   const auto percent = medium::number(parts.second);
   if (!percent || !(*percent > 0))
     throw InputError({.problem = "the uncertainty is " + parts.second + " %", .allowed = "> 0 %"});
@@ -233,7 +233,7 @@ Measured in_percent(double value, const Parts& parts, medium::Dimension dimensio
   return {value, value, Shape::normal, *percent / 100 * std::fabs(value)};
 }
 
-Measured measured(const Parts& parts, medium::Dimension dimension, std::string_view default_unit) {
+MeasuredValue measured(const ValueParts& parts, medium::Dimension dimension, std::string_view default_unit) {
   const double first = value_of(parts.first, parts.unit, dimension, default_unit);
   if (parts.shape == Shape::lognormal) {
     const auto factor = medium::number(parts.second);
@@ -268,14 +268,14 @@ void refuse_comma(std::string_view text) {
 
 }  // namespace
 
-Measured split(double value, double above, double below) {
+MeasuredValue split(double value, double above, double below) {
   if (!(above > 0) || !(below > 0))
     throw InputError({.problem = "an error is not positive", .allowed = "> 0, as in 3.0 +0.3/-0.1 km/s"});
   if (above == below) return {value, value, Shape::normal, above};
   return {value, value, Shape::split, above, below};
 }
 
-Measured parse_measured(std::string_view text, medium::Dimension dimension, std::string_view default_unit) {
+MeasuredValue parse_measured(std::string_view text, medium::Dimension dimension, std::string_view default_unit) {
   const std::string written(trimmed(text)), whole = medium::plain_number(text);
   try {
     if (const auto parts = unequal(whole)) return measured(*parts, dimension, default_unit);
@@ -297,7 +297,7 @@ std::optional<Bound> parse_bound(std::string_view text, medium::Dimension dimens
   if (whole.empty() || (whole.front() != '<' && whole.front() != '>')) return std::nullopt;
   std::string_view rest = std::string_view(whole).substr(1);
   if (rest.starts_with('=')) rest.remove_prefix(1);
-  const Measured limit = parse_measured(rest, dimension, default_unit);
+  const MeasuredValue limit = parse_measured(rest, dimension, default_unit);
   if (!limit.is_exact())
     throw InputError(
         {.value = std::string(trimmed(text)), .problem = "a bound with an error", .allowed = "one number"});

@@ -13,10 +13,10 @@
 
 namespace slipfront::inference {
 
-using catalogue::Measure;
-using catalogue::Measured;
+using catalogue::MeasuredValue;
 using catalogue::Observation;
 using catalogue::RuptureVelocityIs;
+using catalogue::SlipVelocityKind;
 using catalogue::StressDropIs;
 using catalogue::UncertainConstant;
 using medium::Defaults;
@@ -43,7 +43,7 @@ void reset_unless_finite(double& x) {
 
 /// The state of the fault at one choice of the observed numbers.
 FaultState infer(const Observed& observed, const Elastic& e, std::optional<double> given_A, const Observation& o) {
-  const Measure measure = o.measure();
+  const SlipVelocityKind measure = o.measure();
   FaultState s = unknown_state();
   if (!given_A && observed.drop && observed.V) {
     const rupture::Relations r = rupture::from_rupture_velocity(*observed.V / e.speed);
@@ -100,15 +100,15 @@ std::optional<Inferred> inferred(const FaultState& middle, const std::vector<Spr
 }
 
 /// Whether the error of a quantity, whose middle is not below `limit`, reaches below it.
-bool may_reach_below(const Measured& m, double limit) {
-  return m.shape == Measured::Shape::range ? m.low < limit : true;
+bool may_reach_below(const MeasuredValue& m, double limit) {
+  return m.shape == MeasuredValue::Shape::range ? m.low < limit : true;
 }
 
 /// Rejects an observed A or V that is out of range. If the event is sampled and the error reaches into the range, it
 /// warns instead.
 void check_reach(const Observation& o, const Elastic& e, double plastic, bool is_sampled,
                  std::vector<std::string>& warnings) {
-  const Measured* contact = nullptr;
+  const MeasuredValue* contact = nullptr;
   for (const UncertainConstant& c : o.uncertain_constants)
     if (c.member == &medium::Constants::contact_ratio) contact = &c.measured;
   if (o.contact_ratio && !(*o.contact_ratio > 0 && *o.contact_ratio <= plastic)) {
@@ -132,9 +132,9 @@ void check_reach(const Observation& o, const Elastic& e, double plastic, bool is
 /// The observed quantities at their middles, and those that have an error.
 struct ObservedNumbers {
   Observed middle;
-  std::vector<std::pair<std::optional<double> Observed::*, Measured>> uncertain;
+  std::vector<std::pair<std::optional<double> Observed::*, MeasuredValue>> uncertain;
 
-  void add(const std::optional<Measured>& measured, std::optional<double> Observed::*member) {
+  void add(const std::optional<MeasuredValue>& measured, std::optional<double> Observed::*member) {
     if (!measured) return;
     middle.*member = measured->middle();
     if (!measured->is_exact()) uncertain.emplace_back(member, *measured);
@@ -147,7 +147,7 @@ ObservedNumbers observed_numbers(const Observation& o, const Elastic& e) {
   n.add(o.stress_drop, &Observed::drop);
   if (o.slip_velocity_m_s) {
     n.add(o.slip_velocity_m_s, &Observed::w);
-  } else if (const Measured* time = o.slip_time()) {
+  } else if (const MeasuredValue* time = o.slip_time()) {
     n.add(o.slip, &Observed::slip);
     n.add(*time, &Observed::time);
   }
@@ -247,7 +247,7 @@ Estimate estimate(const Observation& o, const Defaults& defaults, bool is_sample
   throw InputError(complaint);
 }
 
-using catalogue::Measured;
+using catalogue::MeasuredValue;
 using catalogue::Observation;
 
 namespace {
@@ -274,22 +274,22 @@ std::size_t position_of(std::string_view name) {
 
 ObservedValues observed_values(const Observation& o) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const auto middle = [](const std::optional<Measured>& m) { return m ? m->middle() : none; };
+  const auto middle = [](const std::optional<MeasuredValue>& m) { return m ? m->middle() : none; };
   return {middle(o.rupture_velocity_m_s), middle(o.slip_velocity_m_s), middle(o.slip),
           o.contact_ratio.value_or(none), middle(o.stress_drop),       middle(o.normal_stress),
           middle(o.friction_coefficient)};
 }
 
-double repeated(const Measured& m, double x, double probability) {
+double repeated(const MeasuredValue& m, double x, double probability) {
   if (m.is_exact()) return x;
-  Measured around = m;
+  MeasuredValue around = m;
   around.low = around.high = x;
-  if (m.shape == Measured::Shape::range) {
+  if (m.shape == MeasuredValue::Shape::range) {
     around.low = x - (m.high - m.low) / 2;
     around.high = x + (m.high - m.low) / 2;
-  } else if (m.shape == Measured::Shape::split) {
+  } else if (m.shape == MeasuredValue::Shape::split) {
     // The error below an observed value is its distance from a smaller true value, so the observed value is above.
-    around.shape = Measured::Shape::normal;
+    around.shape = MeasuredValue::Shape::normal;
     around.spread = probability > 0.5 ? m.spread_below : m.spread;
   }
   return around.quantile(probability);

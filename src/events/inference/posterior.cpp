@@ -157,7 +157,7 @@ ObservedValues repeated_of(const Sample& s, const Observation& o, const Sampler&
   all.fill(std::numeric_limits<double>::quiet_NaN());
   const Mode mode = sampler.mode();
   if (mode != Mode::friction && mode != Mode::contact) return all;
-  const auto set = [&](std::string_view name, const catalogue::Measured& measured, double x) {
+  const auto set = [&](std::string_view name, const catalogue::MeasuredValue& measured, double x) {
     const double probability = (static_cast<double>(random() >> 12) + 0.5) * 0x1p-52;
     all[position_of(name)] = repeated(measured, x, probability);
   };

@@ -13,7 +13,7 @@
 
 namespace slipfront::inference {
 
-using catalogue::Measured;
+using catalogue::MeasuredValue;
 using catalogue::Observation;
 
 namespace {
@@ -33,14 +33,14 @@ constexpr double least_ratio = 1e-14, most_ratio = 1e14;  // ratios of predicted
 /// Ranges of the predicted value, next to each other, which together cover all. They are narrow around the observed
 /// value, because the probability of a tension comes from there, however small it is. Wider ones follow, because a
 /// sampler finds a narrow prediction in a wide range with few of its samples only.
-std::vector<Measured> ranges_of(const Measured& m) {
+std::vector<MeasuredValue> ranges_of(const MeasuredValue& m) {
   std::vector<double> edges;
-  if (m.shape == Measured::Shape::range) {
+  if (m.shape == MeasuredValue::Shape::range) {
     edges = m.is_exact() ? std::vector<double>{m.low} : std::vector<double>{m.low, m.high};
   } else {
     for (const double z : {-5.0, -3.0, -1.0, 1.0, 3.0, 5.0}) {
-      const double spread = m.shape == Measured::Shape::split && z < 0 ? m.spread_below : m.spread;
-      edges.push_back(m.shape == Measured::Shape::lognormal ? m.low * std::pow(spread, z) : m.low + z * spread);
+      const double spread = m.shape == MeasuredValue::Shape::split && z < 0 ? m.spread_below : m.spread;
+      edges.push_back(m.shape == MeasuredValue::Shape::lognormal ? m.low * std::pow(spread, z) : m.low + z * spread);
     }
   }
   std::erase_if(edges, [](double edge) { return !(edge > 0); });
@@ -49,14 +49,14 @@ std::vector<Measured> ranges_of(const Measured& m) {
     for (const double edge : {m.middle() * std::exp(-e_folds), m.middle() * std::exp(e_folds)})
       if (edge < low || edge > high) edges.push_back(edge);
   std::sort(edges.begin(), edges.end());
-  std::vector<Measured> ranges;
+  std::vector<MeasuredValue> ranges;
   double from = least_ratio * m.low;
   for (const double edge : edges)
     if (edge > from) {
-      ranges.push_back(Measured{from, edge});
+      ranges.push_back(MeasuredValue{from, edge});
       from = edge;
     }
-  ranges.push_back(Measured{from, most_ratio * m.low});
+  ranges.push_back(MeasuredValue{from, most_ratio * m.low});
   return ranges;
 }
 
@@ -71,7 +71,7 @@ std::optional<std::size_t> position_in(const Sampler& sampler, const std::string
 }
 
 /// Adds samples [from, to) to the probabilities that a repeated observation is below and above the actual one.
-void add_shares(Shares& sum, Sampler& sampler, const std::string& name, const Measured& measured, std::size_t from,
+void add_shares(Shares& sum, Sampler& sampler, const std::string& name, const MeasuredValue& measured, std::size_t from,
                 std::size_t to) {
   const std::optional<std::size_t> position = position_in(sampler, name);
   sampler.grow(to);
@@ -89,10 +89,10 @@ void add_shares(Shares& sum, Sampler& sampler, const std::string& name, const Me
 /// repeated observation is below the actual one. That probability is a sum over ranges of the predicted value. Each
 /// range has samples of its own, so that a small probability has as small a relative error as a large one. Absent if no
 /// state of the fault predicts a value on that side.
-std::optional<double> sigmas_above(const std::string& name, const Measured& measured, const Observation& o,
+std::optional<double> sigmas_above(const std::string& name, const MeasuredValue& measured, const Observation& o,
                                    const medium::Defaults& defaults, const Sampling& sampling) {
   std::vector<std::pair<Sampler, Shares>> ranges;
-  for (const Measured& range : ranges_of(measured)) {
+  for (const MeasuredValue& range : ranges_of(measured)) {
     Sampler sampler(o, defaults, sampling, name, range);
     if (sampler.mode() != Mode::friction || !std::isfinite(sampler.least_misfit())) continue;
     ranges.emplace_back(std::move(sampler), Shares{0, 0});
@@ -115,7 +115,7 @@ std::optional<double> sigmas_above(const std::string& name, const Measured& meas
   }
 }
 
-std::optional<Tension> tension_of(const std::string& name, const Measured& measured, const Observation& o,
+std::optional<Tension> tension_of(const std::string& name, const MeasuredValue& measured, const Observation& o,
                                   const medium::Defaults& defaults, const Sampling& sampling) {
   Sampling few = sampling;
   few.samples = first_samples_of_range;
@@ -138,7 +138,7 @@ std::vector<Tension> tensions(const Observation& o, const medium::Defaults& defa
   std::vector<Tension> all;
   const std::vector<Evidence> evidence = evidence_of(o);
   if (evidence.size() + (o.rupture_velocity_m_s ? 1 : 0) < 2) return all;
-  const auto add = [&](const std::string& name, const Measured& measured) {
+  const auto add = [&](const std::string& name, const MeasuredValue& measured) {
     if (auto t = tension_of(name, measured, o, defaults, sampling)) all.push_back(std::move(*t));
   };
   if (o.rupture_velocity_m_s) add("rupture_velocity", *o.rupture_velocity_m_s);

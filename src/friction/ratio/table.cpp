@@ -33,7 +33,7 @@ struct Position {
   double motion;        ///< d/dy of the point of the piece at this share
 };
 
-Position position_of(Measure measure, friction::Closure closure, double stress, double damping) {
+Position position_of(SlipVelocityKind measure, friction::Closure closure, double stress, double damping) {
   check(stress, damping);
   const std::size_t c = closure == friction::Closure::paper ? 1 : 0, m = static_cast<std::size_t>(measure);
   const double t = layout::of_stress().to_unit(layout::y_of(stress));
@@ -48,10 +48,10 @@ Position position_of(Measure measure, friction::Closure closure, double stress, 
 
 }  // namespace
 
-const char* name_of(Measure measure) { return measure_names[static_cast<std::size_t>(measure)]; }
+const char* name_of(SlipVelocityKind measure) { return measure_names[static_cast<std::size_t>(measure)]; }
 
-Measure measure_named(std::string_view name, std::string_view key) {
-  for (const Measure m : all_measures)
+SlipVelocityKind measure_named(std::string_view name, std::string_view key) {
+  for (const SlipVelocityKind m : all_slip_velocity_kinds)
     if (name == name_of(m)) return m;
   throw InputError({.key = std::string(key),
                     .value = std::string(name),
@@ -59,7 +59,7 @@ Measure measure_named(std::string_view name, std::string_view key) {
                     .allowed = "origin, mean, peak, time-mean"});
 }
 
-Ratio evaluate(Measure measure, friction::Closure closure, double stress, double damping) {
+Ratio evaluate(SlipVelocityKind measure, friction::Closure closure, double stress, double damping) {
   const Position p = position_of(measure, closure, stress, damping);
   const auto in_u = layout::chebyshev<layout::u_nodes>(p.v.value[0]);
   const auto in_y = layout::chebyshev<layout::y_nodes>(p.t);
@@ -87,7 +87,7 @@ Ratio evaluate(Measure measure, friction::Closure closure, double stress, double
   return r;
 }
 
-double evaluate_value(Measure measure, friction::Closure closure, double stress, double damping) {
+double evaluate_value(SlipVelocityKind measure, friction::Closure closure, double stress, double damping) {
   const Position p = position_of(measure, closure, stress, damping);
   const auto in_u = layout::chebyshev_values<layout::u_nodes>(p.v.value[0]);
   const auto in_y = layout::chebyshev_values<layout::y_nodes>(p.t);
@@ -112,7 +112,7 @@ namespace {
 
 /// Least damping number in [0, the table's last] whose ratio is `ratio`, by bisection in ln(1 + Gamma): the ratio
 /// falls.
-double inside(Measure measure, friction::Closure closure, double stress, double ratio) {
+double inside(SlipVelocityKind measure, friction::Closure closure, double stress, double ratio) {
   const auto is_less_damped = [&](double log_damping) {
     return evaluate(measure, closure, stress, std::expm1(log_damping)).value > ratio;
   };
@@ -121,7 +121,7 @@ double inside(Measure measure, friction::Closure closure, double stress, double 
 
 }  // namespace
 
-Reading damping_number(Measure measure, friction::Closure closure, double stress, double ratio) {
+Reading damping_number(SlipVelocityKind measure, friction::Closure closure, double stress, double ratio) {
   const double most = evaluate(measure, closure, stress, 0).value;
   // Without friction the table is 1 only to its error.
   if (!(ratio > 0 && ratio <= most * (1 + uncertainty(closure, 0))))

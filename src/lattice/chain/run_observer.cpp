@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "lattice/chain/measure/averages.hpp"
+#include "lattice/chain/observe/averages.hpp"
 #include "math/constants.hpp"
 #include "math/digits.hpp"
 #include "slipfront/error.hpp"

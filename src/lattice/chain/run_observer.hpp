@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "lattice/chain/measure/averages.hpp"
-#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/observe/averages.hpp"
+#include "lattice/chain/observe/totals.hpp"
 #include "slipfront/lattice/chain/run.hpp"
 #include "slipfront/text/output/snapshot.hpp"
 #include "system/archive.hpp"

@@ -7,8 +7,8 @@
 #include "exact_chains.hpp"
 #include "lattice/chain/explicit/explicit_chain.hpp"
 #include "lattice/chain/explicit/levels/slab.hpp"
-#include "lattice/chain/measure/totals.hpp"
 #include "lattice/chain/model/initial_train.hpp"
+#include "lattice/chain/observe/totals.hpp"
 #include "slipfront/lattice/chain/run.hpp"
 #include "slipfront/theory/train.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "lattice/chain/measure/averages.hpp"
-#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/observe/averages.hpp"
+#include "lattice/chain/observe/totals.hpp"
 #include "loaded_chains.hpp"
 
 namespace {

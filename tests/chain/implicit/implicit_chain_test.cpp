@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "exact_chains.hpp"
-#include "lattice/chain/measure/totals.hpp"
 #include "lattice/chain/model/initial_train.hpp"
+#include "lattice/chain/observe/totals.hpp"
 #include "loaded_chains.hpp"
 #include "slipfront/error.hpp"
 #include "system/archive.hpp"

@@ -15,16 +15,16 @@ namespace {
 
 using namespace slipfront;
 using namespace loaded;
+using chain::ChainState;
 using chain::End;
 using chain::ImplicitChain;
 using chain::ImplicitStep;
-using chain::Moment;
 using chain::SiteForces;
 
 constexpr std::array<double, 6> lengths = {0.3, 0.5, 0.2, 0.4, 0.7, 0.6};
 
-Moment moment_at_rest(const Problem& p) {
-  Moment m;
+ChainState moment_at_rest(const Problem& p) {
+  ChainState m;
   for (auto* column : {&m.u, &m.v, &m.w, &m.slope, &m.acceleration, &m.earlier}) column->assign(p.grid.sites, 0);
   m.flows.assign(3, 0);
   return m;
@@ -36,7 +36,7 @@ TEST(ImplicitStep, ErrorFollowsFromTheThirdAndTheFourthDerivative) {
   for (const auto& [first, second] : {std::pair{0.5, 0.0}, {0.1, 0.3}, {-0.3, 0.3}}) {
     Problem p = smooth_block();
     p.forcing = [f1 = first, f2 = second](double, double t) { return 2 + f1 * t + f2 * t * t / 2; };
-    Moment m = moment_at_rest(p);
+    ChainState m = moment_at_rest(p);
     const SiteForces forces(p, m, Ranks::single());
     ImplicitStep step(forces, 1);
     double last_middle = 0;
@@ -60,7 +60,7 @@ TEST(ImplicitStep, IsExactForALinearVelocityUnderViscousFriction) {
   Problem p = smooth_block();
   p.friction = friction::viscous(coefficient);
   p.forcing = [](double, double t) { return acceleration + coefficient * acceleration * t; };
-  Moment m = moment_at_rest(p);
+  ChainState m = moment_at_rest(p);
   const SiteForces forces(p, m, Ranks::single());
   ImplicitStep step(forces, 1);
   for (const double dt : lengths) {
@@ -77,7 +77,7 @@ TEST(SiteForces, ContactsInTheMiddleAreThoseAfterHalfAStep) {
   Problem p = smooth_block();
   for (const friction::Definition* law : friction::laws())
     if (law->name == "rate-and-state") p.friction = {*law, {0.6, 0.01, 0.015, 1, 0.01, 100, 0, 0, 0, 0.05, 3, 0.2}};
-  Moment m = moment_at_rest(p);
+  ChainState m = moment_at_rest(p);
   const SiteForces forces(p, m, Ranks::single());
   ASSERT_TRUE(forces.contacts_change());
   const double start = forces.effective_stress(m, 3);

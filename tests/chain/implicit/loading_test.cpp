@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/observe/totals.hpp"
 #include "loaded_chains.hpp"
 
 namespace {

@@ -2,8 +2,8 @@
 
 #include "exact_chains.hpp"
 #include "lattice/chain/explicit/explicit_chain.hpp"
-#include "lattice/chain/measure/averages.hpp"
-#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/observe/averages.hpp"
+#include "lattice/chain/observe/totals.hpp"
 
 namespace {
 

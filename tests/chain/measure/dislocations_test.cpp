@@ -5,7 +5,7 @@
 
 #include "exact_chains.hpp"
 #include "lattice/chain/explicit/explicit_chain.hpp"
-#include "lattice/chain/measure/averages.hpp"
+#include "lattice/chain/observe/averages.hpp"
 #include "slipfront/text/output/dislocation_paths.hpp"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "lattice/chain/explicit/explicit_chain.hpp"
-#include "lattice/chain/measure/averages.hpp"
 #include "lattice/chain/model/initial_train.hpp"
+#include "lattice/chain/observe/averages.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/theory/train.hpp"
 

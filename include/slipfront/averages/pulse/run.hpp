@@ -59,8 +59,8 @@ class Run : public output::Run {
   void archive(Archive& a) override;
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> parts_;
 };
 
 /// A run that has reached its end.

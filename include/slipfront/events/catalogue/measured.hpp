@@ -11,7 +11,7 @@
 namespace slipfront::catalogue {
 
 /// A measured value in SI units. `low` and `high` differ only for a range.
-struct Measured {
+struct MeasuredValue {
   enum class Shape {
     range,      ///< uniform from low to high; an exact number if low == high
     normal,     ///< mean low == high, standard deviation `spread`
@@ -42,14 +42,14 @@ struct Measured {
 
 /// A value with unequal errors. Its likelihood is a normal one on each side, and falls to exp(-1/2) at value + above
 /// and at value - below. \throws InputError (problem and allowed only) unless both errors are positive.
-Measured split(double value, double above, double below);
+MeasuredValue split(double value, double above, double below);
 
 /// Reads "3.0 km/s", "3.0 +- 0.2 km/s" (or the plus-minus sign), "3.0 +- 10 % km/s", "3.0(2) km/s", "3.0 +0.3/-0.1
 /// km/s", "3.0 */ 1.2 km/s", "2.8..3.2 km/s", "2.8-3.2 km/s" (or with an en dash or "to"), "normal(3.0, 0.2) km/s",
 /// "lognormal(3.0, 1.2) km/s" or "uniform(2.8, 3.2) km/s". The unit may follow either number. \throws InputError
 /// (value, problem and allowed only) like parse_quantity, and if the uncertainty is not positive, the factor is not
 /// above 1, or the text is not one of these forms.
-Measured parse_measured(std::string_view text, medium::Dimension dimension, std::string_view default_unit);
+MeasuredValue parse_measured(std::string_view text, medium::Dimension dimension, std::string_view default_unit);
 
 /// A limit that a quantity does not exceed, or does not fall below.
 struct Bound {

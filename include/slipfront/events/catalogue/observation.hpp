@@ -16,7 +16,7 @@
 namespace slipfront::catalogue {
 
 /// Which slip velocity of the model the observed slip velocity is compared with.
-using friction_ratio::Measure;
+using friction_ratio::SlipVelocityKind;
 
 /// Which velocity the observed rupture velocity is.
 enum class RuptureVelocityIs {
@@ -43,7 +43,7 @@ double parse_front_threshold(std::string_view text);
 /// A constant of the medium that was given with an uncertainty. The constant itself holds the central value.
 struct UncertainConstant {
   std::optional<double> medium::Constants::*member;
-  Measured measured;
+  MeasuredValue measured;
 };
 
 /// One patch of a finite-fault model. A value is absent if its column is missing or holds a placeholder.
@@ -67,26 +67,26 @@ struct Observation : medium::Constants {
   std::string file;      ///< the file that the event was read from
   std::size_t line = 0;  ///< line of the row, table or header in that file
 
-  std::optional<Measured> rupture_velocity_m_s;
-  std::optional<Measured> slip_velocity_m_s;
-  std::optional<Measured> slip;       ///< m
-  std::optional<Measured> rise_time;  ///< s, time for which one point slips
-  std::optional<Measured> duration;   ///< s, of the whole event
+  std::optional<MeasuredValue> rupture_velocity_m_s;
+  std::optional<MeasuredValue> slip_velocity_m_s;
+  std::optional<MeasuredValue> slip;       ///< m
+  std::optional<MeasuredValue> rise_time;  ///< s, time for which one point slips
+  std::optional<MeasuredValue> duration;   ///< s, of the whole event
 
-  std::optional<Measured> rupture_length, rupture_width;  ///< m
-  std::optional<Measured> rupture_area;                   ///< m^2
-  std::optional<Measured> moment;                         ///< N m
-  std::optional<Measured> moment_magnitude;               ///< Mw
-  std::vector<Bound> bounds;                              ///< limits such as "<2.7 km/s", which give no value
+  std::optional<MeasuredValue> rupture_length, rupture_width;  ///< m
+  std::optional<MeasuredValue> rupture_area;                   ///< m^2
+  std::optional<MeasuredValue> moment;                         ///< N m
+  std::optional<MeasuredValue> moment_magnitude;               ///< Mw
+  std::vector<Bound> bounds;                                   ///< limits such as "<2.7 km/s", which give no value
 
-  std::optional<Measured> stress_drop;           ///< Pa; `stress_drop_is` gives its meaning
-  std::optional<Measured> friction_coefficient;  ///< C
-  std::optional<Measured> normal_stress;         ///< Pa
-  std::optional<Measured> hardness;              ///< Pa; contact_ratio = A_plastic normal_stress / hardness
+  std::optional<MeasuredValue> stress_drop;           ///< Pa; `stress_drop_is` gives its meaning
+  std::optional<MeasuredValue> friction_coefficient;  ///< C
+  std::optional<MeasuredValue> normal_stress;         ///< Pa
+  std::optional<MeasuredValue> hardness;              ///< Pa; contact_ratio = A_plastic normal_stress / hardness
   /// Pa, ahead of a front in the laboratory and behind it. Events have none.
-  std::optional<Measured> shear_stress, shear_stress_after;
-  std::vector<Subfault> subfaults;          ///< patches, if the event is a finite-fault model with coordinates
-  std::optional<Measure> slip_velocity_is;  ///< as given in the file; see measure()
+  std::optional<MeasuredValue> shear_stress, shear_stress_after;
+  std::vector<Subfault> subfaults;                   ///< patches, if the event is a finite-fault model with coordinates
+  std::optional<SlipVelocityKind> slip_velocity_is;  ///< as given in the file; see measure()
   RuptureVelocityIs rupture_velocity_is = RuptureVelocityIs::front;
   StressDropIs stress_drop_is = StressDropIs::static_drop;
   double front_threshold = default_front_threshold;  ///< slip velocity at the observed front, as a fraction of the peak
@@ -95,16 +95,18 @@ struct Observation : medium::Constants {
   std::vector<std::string> warnings;  ///< assumptions and omissions that the reader of the file had to make
 
   /// The time that divides slip to give a slip velocity, if no slip velocity was measured. Null if there is none.
-  const Measured* slip_time() const {
+  const MeasuredValue* slip_time() const {
     if (slip_velocity_m_s || !slip) return nullptr;
     return rise_time ? &*rise_time : duration ? &*duration : nullptr;
   }
   bool has_slip_velocity() const { return slip_velocity_m_s || slip_time(); }
   /// T of the damping number Gamma = C T. Null if it is unknown.
-  const Measured* damping_time() const { return duration ? &*duration : rise_time ? &*rise_time : nullptr; }
+  const MeasuredValue* damping_time() const { return duration ? &*duration : rise_time ? &*rise_time : nullptr; }
   /// Meaning of the slip velocity. If the file does not state it, slip over a time is the mean over that time, and a
   /// measured slip velocity is that at the origin.
-  Measure measure() const { return slip_velocity_is.value_or(slip_time() ? Measure::time_mean : Measure::origin); }
+  SlipVelocityKind measure() const {
+    return slip_velocity_is.value_or(slip_time() ? SlipVelocityKind::time_mean : SlipVelocityKind::origin);
+  }
 };
 
 /// One entry of a file: an observation, or the error in it. An entry with an error does not affect the others.

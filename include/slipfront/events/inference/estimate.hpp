@@ -47,6 +47,6 @@ ObservedValues observed_values(const catalogue::Observation& observation);
 
 /// A repeated observation of the true value x, with the error of `measured`. It is the quantile of `probability`, in
 /// 0 ... 1, of all repeated observations. An exact observation repeats x.
-double repeated(const catalogue::Measured& measured, double x, double probability);
+double repeated(const catalogue::MeasuredValue& measured, double x, double probability);
 
 }  // namespace slipfront::inference

@@ -16,17 +16,18 @@
 namespace slipfront::friction_ratio {
 
 /// Which slip velocity of the pulse.
-enum class Measure {
+enum class SlipVelocityKind {
   origin,     ///< W(0) at time T; x = 0 is the position of the initial step of stress
   mean,       ///< at time T, weighted with slip: integral of W slip dx over integral of slip dx
   peak,       ///< at time T, the largest W(x) up to the top that is reached uphill from x = 0
   time_mean,  ///< slip over duration: (1 / T) integral of W(0) dt from 0 to T
 };
-inline constexpr Measure all_measures[] = {Measure::origin, Measure::mean, Measure::peak, Measure::time_mean};
+inline constexpr SlipVelocityKind all_slip_velocity_kinds[] = {SlipVelocityKind::origin, SlipVelocityKind::mean,
+                                                               SlipVelocityKind::peak, SlipVelocityKind::time_mean};
 
 /// "origin", "mean", "peak" or "time-mean". \throws InputError (with `key`) for any other name.
-const char* name_of(Measure measure);
-Measure measure_named(std::string_view name, std::string_view key = {});
+const char* name_of(SlipVelocityKind measure);
+SlipVelocityKind measure_named(std::string_view name, std::string_view key = {});
 
 struct Ratio {
   double value;       ///< W / frictionless W(0); for `origin` and `time_mean` 1 at Gamma = 0
@@ -36,10 +37,10 @@ struct Ratio {
 
 /// The ratio for `stress` = Sigma- in 0.05 ... 3 and `damping_number` >= 0. Above 1e8 it is the diffusion limit, which
 /// falls as Gamma^(-1/2). Relative error: see `uncertainty`. \throws InputError if an argument is out of range.
-Ratio evaluate(Measure measure, friction::Closure closure, double stress, double damping_number);
+Ratio evaluate(SlipVelocityKind measure, friction::Closure closure, double stress, double damping_number);
 
 /// Like evaluate(...).value, but faster, because it computes no derivatives.
-double evaluate_value(Measure measure, friction::Closure closure, double stress, double damping_number);
+double evaluate_value(SlipVelocityKind measure, friction::Closure closure, double stress, double damping_number);
 
 /// Relative error of the ratio: 1e-4, but 1e-2 for closure "paper" and 3 < Gamma < 1e5. That closure is unstable where
 /// dislocations move faster than their own sound (docs/friction_ratio.md). Its slip velocities then do not converge
@@ -60,7 +61,7 @@ struct Reading {
 /// The damping number for `stress` = Sigma- in 0.05 ... 3 and the `ratio` of W to the frictionless W(0). The ratio is
 /// above 0 and at most that of `measure` without friction (1 for `origin` and `time_mean`). \throws InputError if an
 /// argument is out of range.
-Reading damping_number(Measure measure, friction::Closure closure, double stress, double ratio);
+Reading damping_number(SlipVelocityKind measure, friction::Closure closure, double stress, double ratio);
 
 /// The ratio of a FrontCurve as a function of Sigma- at one damping number.
 class FrontAtDamping {
@@ -75,8 +76,8 @@ class FrontAtDamping {
 };
 
 /// The observed trailing front at one threshold: |x_front(T)| / (|V-| T), which is at most 1. x_front is the farthest
-/// x < 0 at which W reaches the threshold times the peak of W at time T (`Measure::peak`). Make one object and call it
-/// many times: the constructor does the interpolation in the threshold.
+/// x < 0 at which W reaches the threshold times the peak of W at time T (`SlipVelocityKind::peak`). Make one object and
+/// call it many times: the constructor does the interpolation in the threshold.
 class FrontCurve {
  public:
   /// Takes a `threshold` in 1e-4 ... 0.3. \throws InputError if it is out of range.

@@ -148,7 +148,7 @@ std::vector<Piece> pieces_of(const Problem& problem) {
 }
 
 /// Density of points along a piece. It is large where the stress changes, and where psi changes by a factor.
-struct Measure {
+struct PointDensity {
   double width, range, factor;  ///< changes of x, stress and ln psi over the whole domain
 
   double between(const Piece& piece, std::size_t i) const {
@@ -159,7 +159,7 @@ struct Measure {
   }
 };
 
-Measure measure_of(const Problem& problem, const std::vector<Piece>& pieces) {
+PointDensity measure_of(const Problem& problem, const std::vector<Piece>& pieces) {
   double low = HUGE_VAL, high = 0;
   for (const Piece& piece : pieces)
     for (const double stress : piece.stress)
@@ -342,7 +342,7 @@ class Builder {
 
   const Problem& problem_;
   std::vector<Piece> pieces_;
-  Measure measure_;
+  PointDensity measure_;
   double density_ = 0;
   double front_x_ = 0;
   const Piece* front_piece_ = nullptr;  ///< with the fast front, from its stressed side

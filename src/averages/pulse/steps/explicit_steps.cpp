@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "averages/pulse/steps/measures.hpp"
+#include "averages/pulse/steps/step_scales.hpp"
 #include "theory/modulation/equations.hpp"
 
 namespace slipfront::pulse {
@@ -42,7 +42,7 @@ void keep_others(CellRange awake, const std::vector<double>& before, std::vector
 
 }  // namespace
 
-ExplicitSteps::ExplicitSteps(const Problem& problem, const Measures& measures, std::size_t cells)
+ExplicitSteps::ExplicitSteps(const Problem& problem, const StepScales& measures, std::size_t cells)
     : problem_(problem),
       measures_(measures),
       step_(Values::size(cells)),
@@ -81,7 +81,7 @@ double ExplicitSteps::take(Cells& cells, Semidiscrete& equations, const std::vec
   return step.length;
 }
 
-SplitSteps::SplitSteps(const Problem& problem, const Measures& measures, const StateGrid& grid, std::size_t cells)
+SplitSteps::SplitSteps(const Problem& problem, const StepScales& measures, const StateGrid& grid, std::size_t cells)
     : problem_(problem),
       measures_(measures),
       grid_(grid),

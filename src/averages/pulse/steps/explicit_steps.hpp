@@ -4,7 +4,7 @@
 
 #include "averages/pulse/friction/cell_friction.hpp"
 #include "averages/pulse/space/semidiscrete.hpp"
-#include "averages/pulse/steps/measures.hpp"
+#include "averages/pulse/steps/step_scales.hpp"
 #include "averages/pulse/time/integrators.hpp"
 #include "math/time_steps.hpp"
 
@@ -13,7 +13,7 @@ namespace slipfront::pulse {
 /// Explicit steps, as long as waves and friction allow.
 class ExplicitSteps {
  public:
-  ExplicitSteps(const Problem& problem, const Measures& measures, std::size_t cells);
+  ExplicitSteps(const Problem& problem, const StepScales& measures, std::size_t cells);
   /// Takes one step of at most `remaining` and returns its length. `rate` are the rates at the present time, `crossing`
   /// is the time in which a wave crosses a cell. \throws NumericsError if no step is short enough.
   double take(Cells& cells, Semidiscrete& equations, const std::vector<double>& rate, double remaining,
@@ -23,7 +23,7 @@ class ExplicitSteps {
   StepAttempt attempt(Cells& cells, Semidiscrete& equations, const std::vector<double>& rate, double dt);
 
   const Problem& problem_;
-  const Measures& measures_;
+  const StepScales& measures_;
   Ssprk54 step_;
   std::vector<double> before_, scale_;
 };
@@ -32,7 +32,7 @@ class ExplicitSteps {
 /// motion of the cells each advance with the values that the other has in the middle of the step.
 class SplitSteps {
  public:
-  SplitSteps(const Problem& problem, const Measures& measures, const StateGrid& grid, std::size_t cells);
+  SplitSteps(const Problem& problem, const StepScales& measures, const StateGrid& grid, std::size_t cells);
   /// Takes one step of at most `remaining` and returns its length. `rate` are the rates at the present time, without
   /// friction; `crossing` is the time in which a wave crosses a cell. \throws NumericsError if no step is short enough.
   double take(Cells& cells, Semidiscrete& equations, const std::vector<double>& rate, double remaining,
@@ -44,7 +44,7 @@ class SplitSteps {
   void mix(double share);
 
   const Problem& problem_;
-  const Measures& measures_;
+  const StepScales& measures_;
   const StateGrid& grid_;
   bool has_state_;
   Ars443 step_;

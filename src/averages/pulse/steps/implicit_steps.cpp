@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "averages/pulse/steps/measures.hpp"
+#include "averages/pulse/steps/step_scales.hpp"
 #include "math/digits.hpp"
 #include "slipfront/error.hpp"
 
@@ -19,7 +19,7 @@ constexpr double far_too_short = 1e-3;
 
 }  // namespace
 
-ImplicitSteps::ImplicitSteps(const Problem& problem, const Measures& measures, const Staggered& staggered)
+ImplicitSteps::ImplicitSteps(const Problem& problem, const StepScales& measures, const Staggered& staggered)
     : problem_(problem),
       measures_(measures),
       rodas_(staggered.faces(), staggered.size(), Staggered::reach, bool(problem.forcing)),

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "averages/pulse/staggered/staggered.hpp"
-#include "averages/pulse/steps/measures.hpp"
+#include "averages/pulse/steps/step_scales.hpp"
 #include "averages/pulse/time/integrators.hpp"
 #include "math/time_steps.hpp"
 
@@ -12,7 +12,7 @@ namespace slipfront::pulse {
 /// Steps of the staggered equations where friction rules, in which waves cross many cells.
 class ImplicitSteps {
  public:
-  ImplicitSteps(const Problem& problem, const Measures& measures, const Staggered& staggered);
+  ImplicitSteps(const Problem& problem, const StepScales& measures, const Staggered& staggered);
   /// Takes one step of at most `remaining` and returns its length. `crossing` is the time in which a wave crosses a
   /// cell. \throws NumericsError where no step is short enough.
   double take(Cells& cells, Equations& equations, double remaining, double crossing);
@@ -27,7 +27,7 @@ class ImplicitSteps {
   StepAttempt attempt_by_faces(const Cells& cells, Staggered& staggered, double dt);
 
   const Problem& problem_;
-  const Measures& measures_;
+  const StepScales& measures_;
   Rodas4 rodas_;
   ExtrapolatedEuler euler_;
   std::vector<double> unknowns_, rate_, next_, scale_, cell_scale_;

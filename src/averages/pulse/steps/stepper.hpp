@@ -45,7 +45,7 @@ class Stepper {
 
   const Problem& problem_;
   const InitialGrid& initial_;
-  Measures measures_;
+  StepScales measures_;
   Equations equations_;
   StateGrid state_grid_;
   bool by_cells_;               ///< whether friction is taken cell by cell

@@ -109,8 +109,8 @@ void Row::take_further(const Column& column, const std::string& cell) {
   const bool has_percent = text.ends_with('%');
   if (has_percent) text.pop_back();
   further.in_percent = further.in_percent || has_percent || column.in_percent;
-  const Measured error = further.in_percent ? parse_measured(text, medium::Dimension::ratio, "")
-                                            : parse_measured(text, column.key->dimension, unit);
+  const MeasuredValue error = further.in_percent ? parse_measured(text, medium::Dimension::ratio, "")
+                                                 : parse_measured(text, column.key->dimension, unit);
   if (!error.is_exact()) throw InputError({.value = cell, .problem = "not one number", .allowed = "an error > 0"});
   number = error.low / column.deviations * (further.in_percent ? 0.01 : 1);
   if (column.role == Role::error_below) number = std::fabs(number);
@@ -160,7 +160,7 @@ void Row::use(const Further& further) {
   if ((low || high) && !value_of(o_, key)) {
     if (low && high && *low > *high) refuse("the range runs downwards", "min <= max");
     if (low && high)
-      o_.*key.measured = Measured{*low, *high};
+      o_.*key.measured = MeasuredValue{*low, *high};
     else
       o_.warnings.push_back("only one end of the range of " + name + " is known: not used");
   }
@@ -194,7 +194,7 @@ void Row::find_duration() {
     return;
   }
   const double days = last->at - first->at, resolution = std::max(first->resolution, last->resolution);
-  o_.duration = Measured{days * 86400, days * 86400};
+  o_.duration = MeasuredValue{days * 86400, days * 86400};
   o_.warnings.push_back("duration is end - start, " + digits(days, 3) + " days" +
                         (resolution > 0 ? "; the dates are given to " + digits(resolution, 2) + " days" : ""));
 }
@@ -203,7 +203,7 @@ void Row::finish() {
   for (const Further& further : further_) use(further);
   find_duration();
   derive_stress_drop(o_);
-  if (is_peak_ && !o_.slip_velocity_is) o_.slip_velocity_is = Measure::peak;
+  if (is_peak_ && !o_.slip_velocity_is) o_.slip_velocity_is = SlipVelocityKind::peak;
   if (o_.name.empty()) o_.name = texts_["identifier"];
   if (o_.date.empty()) o_.date = texts_["start"];
   const std::string year = texts_["year"], month = texts_["month"], day = texts_["day"];

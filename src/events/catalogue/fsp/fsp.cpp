@@ -123,11 +123,11 @@ bool is_positive(double value) { return std::isfinite(value) && value > 0; }
 
 void Reader::fill_velocities(Observation& out) const {
   if (const auto v = given(header_.rupture_velocity_km_s, "avVr", 99, out.warnings)) {
-    out.rupture_velocity_m_s = Measured{*v * fsp::m_per_km, *v * fsp::m_per_km};
+    out.rupture_velocity_m_s = MeasuredValue{*v * fsp::m_per_km, *v * fsp::m_per_km};
   }
   std::optional<double> rise = given(header_.rise_time, "avTr", 900, out.warnings);
   if (!rise) rise = tables_.mean_rise_time(out.warnings);
-  if (rise) out.rise_time = Measured{*rise, *rise};
+  if (rise) out.rise_time = MeasuredValue{*rise, *rise};
 
   const double slip = tables_.mean_slip(header_, out.warnings);
   if (!std::isfinite(slip)) {
@@ -141,11 +141,11 @@ void Reader::fill_velocities(Observation& out) const {
     out.warnings.push_back("mean slip = " + shortest(slip) + " m is not positive: not given");
     return;
   }
-  out.slip = Measured{slip, slip};
+  out.slip = MeasuredValue{slip, slip};
   if (!rise) {
     out.warnings.push_back("no rise time: slip velocity not given");
   } else if (const double velocity = slip / *rise; is_positive(velocity)) {
-    out.slip_velocity_m_s = Measured{velocity, velocity};
+    out.slip_velocity_m_s = MeasuredValue{velocity, velocity};
   } else {
     out.warnings.push_back("slip / rise time is out of range: slip velocity not given");
   }

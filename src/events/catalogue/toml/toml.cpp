@@ -16,7 +16,7 @@
 namespace slipfront::catalogue {
 namespace {
 
-using Shape = Measured::Shape;
+using Shape = MeasuredValue::Shape;
 
 /// A kind of distribution and the two keys that define it.
 struct Form {
@@ -56,7 +56,7 @@ double number_of(const toml::table& table, const char* name, const std::string& 
   try {
     if (text.empty())
       throw InputError({.problem = "neither a number nor a text", .allowed = std::string(medium::example(dimension))});
-    const Measured m = parse_measured(text, dimension, {});
+    const MeasuredValue m = parse_measured(text, dimension, {});
     if (!m.is_exact())
       throw InputError(
           {.value = text, .problem = "not one number", .allowed = std::string(medium::example(dimension))});
@@ -77,7 +77,7 @@ std::string quantity_text(const toml::node& node) {
   return shortest(node.value_or(0.0));
 }
 
-Measured read_distribution(const toml::table& table, const std::string& full_key, const Key& key) {
+MeasuredValue read_distribution(const toml::table& table, const std::string& full_key, const Key& key) {
   require_known(table, full_key);
   const Form& form = form_of(table, full_key);
   const double first = number_of(table, form.first, full_key, key.dimension);

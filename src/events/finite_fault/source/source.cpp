@@ -46,7 +46,7 @@ double step_for(const FiniteSource& source) {
 double released(const FiniteSource& source, double share) {
   if (share >= 1) return 1;
   const auto slip_to = [&](double s) {
-    return s * friction_ratio::evaluate(friction_ratio::Measure::time_mean, source.closure, source.stress,
+    return s * friction_ratio::evaluate(friction_ratio::SlipVelocityKind::time_mean, source.closure, source.stress,
                                         source.damping_number * s)
                    .value;
   };

@@ -11,7 +11,7 @@
 
 namespace slipfront::inference {
 
-using catalogue::Measured;
+using catalogue::MeasuredValue;
 
 namespace {
 
@@ -25,9 +25,9 @@ std::span<const double> steps_of(Fineness fineness) {
   return fineness == Fineness::fine ? std::span<const double>(fine) : std::span<const double>(coarse);
 }
 
-void add_normal(std::vector<double>& edges, const Measured& m, double low, std::span<const double> steps) {
+void add_normal(std::vector<double>& edges, const MeasuredValue& m, double low, std::span<const double> steps) {
   for (const double z : steps) {
-    const double x = m.low + z * (z < 0 && m.shape == Measured::Shape::split ? m.spread_below : m.spread);
+    const double x = m.low + z * (z < 0 && m.shape == MeasuredValue::Shape::split ? m.spread_below : m.spread);
     if (x > std::fmax(low, 1e-3 * m.low)) edges.push_back(std::log(x));
   }
   // The tail towards zero: cells that widen from a fifth of an e-fold to the rest.
@@ -74,13 +74,13 @@ Axis Axis::uniform(double low, double high, std::size_t cells) {
   return axis;
 }
 
-Axis axis_of(const Measured& m, double low, double high, Fineness fineness) {
+Axis axis_of(const MeasuredValue& m, double low, double high, Fineness fineness) {
   const std::span<const double> steps = steps_of(fineness);
   if (m.is_exact()) return m.low >= low && m.low <= high ? Axis::exact(std::log(m.low)) : Axis{};
   std::vector<double> edges;
-  if (m.shape == Measured::Shape::lognormal) {
+  if (m.shape == MeasuredValue::Shape::lognormal) {
     for (const double z : steps) edges.push_back(std::log(m.low) + std::log(m.spread) * z);
-  } else if (m.shape == Measured::Shape::normal || m.shape == Measured::Shape::split) {
+  } else if (m.shape == MeasuredValue::Shape::normal || m.shape == MeasuredValue::Shape::split) {
     add_normal(edges, m, low, steps);
   } else {
     const double from = std::fmax(m.low, low), to = std::fmin(m.high, high);
@@ -161,7 +161,7 @@ Cells::Point Cells::at(double p, double q, double r) const {
   return {value(axes_[0], i), value(axes_[1], j), value(axes_[2], k), i.share * j.share * k.share / volume};
 }
 
-using catalogue::Measured;
+using catalogue::MeasuredValue;
 using catalogue::Observation;
 using catalogue::UncertainConstant;
 using medium::Constants;
@@ -170,9 +170,9 @@ namespace {
 
 double squared(double x) { return x * x; }
 
-double squared_spread(const Measured* m) { return m && !m->is_exact() ? squared(log_spread(*m)) : 0; }
+double squared_spread(const MeasuredValue* m) { return m && !m->is_exact() ? squared(log_spread(*m)) : 0; }
 
-const Measured* uncertain_constant(const Observation& o, std::optional<double> Constants::*member) {
+const MeasuredValue* uncertain_constant(const Observation& o, std::optional<double> Constants::*member) {
   for (const UncertainConstant& c : o.uncertain_constants)
     if (c.member == member) return &c.measured;
   return nullptr;
@@ -189,10 +189,10 @@ double elastic_blur(const Observation& o) {
 
 }  // namespace
 
-double log_spread(const Measured& m) {
-  if (m.shape == Measured::Shape::lognormal) return std::log(m.spread);
-  if (m.shape == Measured::Shape::normal) return m.spread / m.low;
-  if (m.shape == Measured::Shape::split) return (m.spread + m.spread_below) / 2 / m.low;
+double log_spread(const MeasuredValue& m) {
+  if (m.shape == MeasuredValue::Shape::lognormal) return std::log(m.spread);
+  if (m.shape == MeasuredValue::Shape::normal) return m.spread / m.low;
+  if (m.shape == MeasuredValue::Shape::split) return (m.spread + m.spread_below) / 2 / m.low;
   return m.is_exact() ? 0 : std::log(m.high / m.low) / std::sqrt(12.0);
 }
 
@@ -202,13 +202,13 @@ double Evidence::blurred_likelihood(double ln_x, double resolution, bool falls) 
   const double more = std::hypot(blur, resolution);
   double z = 0;
   switch (measured.shape) {
-    case Measured::Shape::lognormal:
+    case MeasuredValue::Shape::lognormal:
       z = (ln_x - std::log(measured.low)) / std::hypot(std::log(measured.spread), more);
       break;
-    case Measured::Shape::normal:
-    case Measured::Shape::split: {
+    case MeasuredValue::Shape::normal:
+    case MeasuredValue::Shape::split: {
       const double x = std::exp(ln_x);
-      const bool under = measured.shape == Measured::Shape::split && x < measured.low;
+      const bool under = measured.shape == MeasuredValue::Shape::split && x < measured.low;
       // A value that is uncertain by a factor may be near the observed one, however small it is.
       const double blurred = more * (more > 1 ? std::fmax(x, measured.low) : x);
       z = (x - measured.low) / std::hypot(under ? measured.spread_below : measured.spread, blurred);
@@ -216,7 +216,7 @@ double Evidence::blurred_likelihood(double ln_x, double resolution, bool falls) 
         z = std::fmax(z, (ln_x - std::log(measured.low)) / std::hypot(measured.spread / measured.low, more));
       break;
     }
-    case Measured::Shape::range: {
+    case MeasuredValue::Shape::range: {
       const double outside = std::fmax(std::log(measured.low) - ln_x, ln_x - std::log(measured.high));
       z = std::fmax(outside, 0.0) / std::fmax(more, 1e-6);
     }
@@ -251,13 +251,13 @@ std::vector<Evidence> evidence_of(const Observation& o) {
   std::vector<Evidence> all;
   const double elastic = elastic_blur(o);
   if (o.has_slip_velocity()) {
-    const Measured& m = o.slip_velocity_m_s ? *o.slip_velocity_m_s : *o.slip;
+    const MeasuredValue& m = o.slip_velocity_m_s ? *o.slip_velocity_m_s : *o.slip;
     all.push_back({Source::slip, o.slip_velocity_m_s ? "slip_velocity" : "slip", m,
                    std::sqrt(elastic + squared_spread(o.slip_time()))});
   }
   if (o.contact_ratio) {
-    const Measured* m = uncertain_constant(o, &Constants::contact_ratio);
-    all.push_back({Source::contact, "contact_ratio", m ? *m : Measured{*o.contact_ratio, *o.contact_ratio}, 0});
+    const MeasuredValue* m = uncertain_constant(o, &Constants::contact_ratio);
+    all.push_back({Source::contact, "contact_ratio", m ? *m : MeasuredValue{*o.contact_ratio, *o.contact_ratio}, 0});
   }
   if (o.stress_drop) all.push_back({Source::drop, "stress_drop", *o.stress_drop, std::sqrt(elastic)});
   if (o.normal_stress && o.hardness)

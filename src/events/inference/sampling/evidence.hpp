@@ -32,7 +32,7 @@ struct Axis {
 /// reach six standard deviations. A normal error has further cells down to `low`, because its likelihood does not
 /// vanish there. There are no cells if the likelihood vanishes between `low` and `high`.
 enum class Fineness { coarse, fine };
-Axis axis_of(const catalogue::Measured& measured, double low, double high, Fineness fineness);
+Axis axis_of(const catalogue::MeasuredValue& measured, double low, double high, Fineness fineness);
 
 /// The density on the cells of three axes.
 class Cells {
@@ -85,7 +85,7 @@ struct Surroundings {
 struct Evidence {
   Source source;
   const char* name;  ///< key of the observation in a file
-  catalogue::Measured measured;
+  catalogue::MeasuredValue measured;
   double blur;  ///< standard deviation in ln that the surroundings add to its error
 
   double exponent() const { return source == Source::friction ? -1 : 1; }
@@ -103,7 +103,7 @@ struct Evidence {
 };
 
 /// Standard deviation of ln x, approximately.
-double log_spread(const catalogue::Measured& measured);
+double log_spread(const catalogue::MeasuredValue& measured);
 
 /// Sorts evidence: first exact numbers in the present order, then the others, most precise first.
 void sort_by_precision(std::vector<Evidence>& evidence);

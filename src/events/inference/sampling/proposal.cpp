@@ -59,7 +59,7 @@ std::uint64_t seed_of(std::uint64_t seed, const catalogue::Observation& o) {
     state ^= bits;
     state = mixed(state);
   };
-  const auto add_measured = [&](const catalogue::Measured& m) {
+  const auto add_measured = [&](const catalogue::MeasuredValue& m) {
     for (const double x : {m.low, m.high, m.spread, m.spread_below, static_cast<double>(m.shape)}) add(x);
   };
   const auto none = std::numeric_limits<double>::quiet_NaN();
@@ -75,7 +75,7 @@ std::uint64_t seed_of(std::uint64_t seed, const catalogue::Observation& o) {
   return mixed(state) >> 11;  // whole in a JSON number
 }
 
-using catalogue::Measured;
+using catalogue::MeasuredValue;
 
 namespace {
 
@@ -89,7 +89,7 @@ constexpr double defence = 0.1;
 
 const double least_ln_A = std::log(least_contact_ratio);
 
-double likelihood(const Measured& m, double ln_x) { return m.is_exact() ? 1 : m.likelihood_of_log(ln_x); }
+double likelihood(const MeasuredValue& m, double ln_x) { return m.is_exact() ? 1 : m.likelihood_of_log(ln_x); }
 
 /// The first cells over the share of the largest damping number. They are narrow near 1, where |V-| tends to c and the
 /// slip velocity rises steeply.
@@ -123,12 +123,12 @@ double change_of_W(const std::vector<PulseState>& pulses, std::size_t j) {
 }
 
 /// Whether V is so uncertain that its cells are moved to where the likelihood of the others is.
-bool is_wide(const Measured& m, const Axis& axis) {
+bool is_wide(const MeasuredValue& m, const Axis& axis) {
   return m.is_range() && axis.edges.back() - axis.edges.front() > wide_range;
 }
 
 /// A wide density around a measured value: the fourth root of its likelihood, which has twice its standard deviation.
-std::vector<double> wide(const Axis& axis, const Measured& m) {
+std::vector<double> wide(const Axis& axis, const MeasuredValue& m) {
   std::vector<double> base;
   for (std::size_t i = 0; i < axis.cells(); ++i) base.push_back(std::sqrt(std::sqrt(likelihood(m, axis.centre(i)))));
   return base;
@@ -234,11 +234,11 @@ void Sampler::make_cell_of_damping(const Axis& first, const Axis& third) {
 void Sampler::make_cells() {
   const double c = middle_.elastic.speed;
   const bool tabled = mode_ == Mode::friction;
-  const Measured& of_first = velocity_ ? *velocity_ : used_[0].measured;
+  const MeasuredValue& of_first = velocity_ ? *velocity_ : used_[0].measured;
   const double low = velocity_ ? (tabled ? model_.least_seen() : 1e-30) * c : 1e-30;
   const double high = velocity_ ? (tabled ? model_.most_seen() : 1 - 1e-12) * c : 1e30;
   Axis first = axis_of(of_first, low, high, Fineness::coarse);
-  const Measured* of_third = used_.size() > (velocity_ ? 0 : 1) ? &used_[velocity_ ? 0 : 1].measured : nullptr;
+  const MeasuredValue* of_third = used_.size() > (velocity_ ? 0 : 1) ? &used_[velocity_ ? 0 : 1].measured : nullptr;
   const Axis third = of_third ? axis_of(*of_third, 1e-60, 1e60, Fineness::fine) : Axis::exact(0);
   most_ln_A_ = std::log(middle_.plastic);
   if (first.edges.empty()) {

@@ -10,9 +10,9 @@
 
 namespace slipfront::inference {
 
-using catalogue::Measure;
 using catalogue::Observation;
 using catalogue::RuptureVelocityIs;
+using catalogue::SlipVelocityKind;
 using catalogue::StressDropIs;
 using friction_ratio::Drop;
 using friction_ratio::stress_range;
@@ -38,8 +38,8 @@ double rough_psi(double V) {
 
 }  // namespace
 
-double frictionless(Measure measure, double stress, double W_at_origin) {
-  if (measure != Measure::mean) return W_at_origin;
+double frictionless(SlipVelocityKind measure, double stress, double W_at_origin) {
+  if (measure != SlipVelocityKind::mean) return W_at_origin;
   const auto range = stress_range();
   const double tabled = std::fmin(std::fmax(stress, range.least), range.most);
   return W_at_origin * friction_ratio::evaluate(measure, friction::Closure::consistent, tabled, 0).value;

@@ -20,7 +20,7 @@ struct PulseState {
 
 /// W without friction. For every measure except the mean over the fault, it is W(0) of the closed form. The mean is a
 /// fraction of W(0), which the table has for 0.05 <= Sigma- <= 3. Outside this range we use the value at its end.
-double frictionless(catalogue::Measure measure, double stress, double W_at_origin);
+double frictionless(catalogue::SlipVelocityKind measure, double stress, double W_at_origin);
 
 /// The relation between the observed quantities of a pulse and its state, for one event. Damping numbers are given as
 /// u = ln(1 + Gamma).
@@ -52,7 +52,7 @@ class PulseModel {
   PulseState state(const rupture::Relations& relations, double slope, double damping) const;
   double drop_share(double stress, double damping) const;
 
-  catalogue::Measure measure_;
+  catalogue::SlipVelocityKind measure_;
   friction::Closure closure_;
   bool sees_front_, static_drop_;
   friction_ratio::FrontCurve front_;

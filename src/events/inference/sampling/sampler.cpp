@@ -11,7 +11,7 @@
 
 namespace slipfront::inference {
 
-using catalogue::Measured;
+using catalogue::MeasuredValue;
 using catalogue::Observation;
 using catalogue::RuptureVelocityIs;
 using catalogue::StressDropIs;
@@ -24,7 +24,7 @@ namespace {
 Surroundings surroundings_of(const Observation& o, const medium::Elastic& elastic) {
   Surroundings s{.elastic = elastic, .plastic = medium::plastic_contact_ratio(elastic.poisson_ratio)};
   s.spacing = o.asperity_spacing.value_or(0);
-  if (const Measured* time = o.damping_time()) s.duration = time->middle();
+  if (const MeasuredValue* time = o.damping_time()) s.duration = time->middle();
   s.slipping = o.slip_time() ? o.slip_time()->middle() : 1;
   if (o.hardness) s.hardness = o.hardness->middle();
   return s;
@@ -52,7 +52,7 @@ bool has_errors(const Observation& o) {
 }  // namespace
 
 Sampler::Sampler(const Observation& o, const medium::Defaults& defaults, const Sampling& sampling,
-                 std::string_view without, const std::optional<Measured>& within)
+                 std::string_view without, const std::optional<MeasuredValue>& within)
     : o_(o),
       defaults_(defaults),
       velocity_(o.rupture_velocity_m_s),
@@ -66,7 +66,7 @@ Sampler::Sampler(const Observation& o, const medium::Defaults& defaults, const S
       around_(middle_) {
   const double c = middle_.elastic.speed;
   if (without == "rupture_velocity")
-    velocity_ = within.value_or(Measured{model_.least_seen() * c, model_.most_seen() * c});
+    velocity_ = within.value_or(MeasuredValue{model_.least_seen() * c, model_.most_seen() * c});
   for (const Evidence& e : all_) {
     if (e.name == without && !within) continue;
     used_.push_back(e);
@@ -104,7 +104,7 @@ void Sampler::choose_mode(bool predicts) {
   has_errors_ = has_errors(o_);
   uncertain_ = has_errors_ || (mode_ == Mode::friction && !solves_damping_);
   if (mode_ == Mode::friction && used_.empty())
-    used_.push_back({Source::contact, "contact_ratio", Measured{least_contact_ratio, middle_.plastic}, 0});
+    used_.push_back({Source::contact, "contact_ratio", MeasuredValue{least_contact_ratio, middle_.plastic}, 0});
   if (mode_ == Mode::bounds && !velocity_)  // the slip velocity comes first, then the contact ratio
     std::stable_partition(used_.begin(), used_.end(), [](const Evidence& e) { return e.source == Source::slip; });
 }
@@ -126,7 +126,7 @@ bool Sampler::draw_surroundings() {
       return refuse(bad_constants);
     }
   around_.spacing = constants_.asperity_spacing.value_or(0);
-  const Measured *time = o_.damping_time(), *slip_time = o_.slip_time();
+  const MeasuredValue *time = o_.damping_time(), *slip_time = o_.slip_time();
   if (time) around_.duration = at(*time, 3);
   if (slip_time) around_.slipping = slip_time == time ? around_.duration : at(*slip_time, 5);
   if (o_.hardness) around_.hardness = at(*o_.hardness, 4);

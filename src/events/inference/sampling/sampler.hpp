@@ -52,7 +52,7 @@ class Sampler {
   /// `without` is the key of an observation to leave out; the samples then predict it. It may be empty. With a range
   /// `within`, only states that predict a value in that range count.
   Sampler(const catalogue::Observation& o, const medium::Defaults& defaults, const Sampling& sampling,
-          std::string_view without = {}, const std::optional<catalogue::Measured>& within = {});
+          std::string_view without = {}, const std::optional<catalogue::MeasuredValue>& within = {});
 
   Mode mode() const { return mode_; }
   bool knows_contact() const { return knows_contact_; }
@@ -101,7 +101,7 @@ class Sampler {
   void fill_row(Filled& filled, std::size_t i, const std::vector<double>& of_third) const;
   class AlongThird;
 
-  double at(const catalogue::Measured& m, std::size_t dimension) const {
+  double at(const catalogue::MeasuredValue& m, std::size_t dimension) const {
     return m.is_exact() ? m.low : m.quantile(points_(point_, dimension));
   }
   bool draw_surroundings();
@@ -123,7 +123,7 @@ class Sampler {
 
   const catalogue::Observation& o_;
   const medium::Defaults& defaults_;
-  std::optional<catalogue::Measured> velocity_;  ///< rupture velocity, m/s; a wide range if it is left out
+  std::optional<catalogue::MeasuredValue> velocity_;  ///< rupture velocity, m/s; a wide range if it is left out
   PulseModel model_;
   std::vector<Evidence> all_, used_;  ///< all evidence; and that which is used, the first of which gives A
   std::vector<std::string> unused_;

@@ -8,7 +8,7 @@
 
 namespace slipfront::inference {
 
-using catalogue::Measured;
+using catalogue::MeasuredValue;
 
 namespace {
 
@@ -16,15 +16,15 @@ double normal_share_below(double z) { return std::erfc(-z / std::numbers::sqrt2)
 
 /// Distance of an observation above the true value x, in its standard deviations: of a range, the distance from its
 /// nearer end. NaN for an exact number.
-double deviations_above(const Measured& m, double x) {
+double deviations_above(const MeasuredValue& m, double x) {
   switch (m.shape) {
-    case Measured::Shape::normal:
+    case MeasuredValue::Shape::normal:
       return (m.low - x) / m.spread;
-    case Measured::Shape::split:
+    case MeasuredValue::Shape::split:
       return (m.low - x) / (x < m.low ? m.spread_below : m.spread);
-    case Measured::Shape::lognormal:
+    case MeasuredValue::Shape::lognormal:
       return std::log(m.low / x) / std::log(m.spread);
-    case Measured::Shape::range:
+    case MeasuredValue::Shape::range:
       break;
   }
   if (m.is_exact()) return std::numeric_limits<double>::quiet_NaN();
@@ -47,8 +47,8 @@ void weigh(WeightedSamples& s) {
 
 }  // namespace
 
-Shares shares_of(const Measured& m, double x) {
-  if (m.shape != Measured::Shape::range) {
+Shares shares_of(const MeasuredValue& m, double x) {
+  if (m.shape != MeasuredValue::Shape::range) {
     const double z = deviations_above(m, x);
     return {normal_share_below(z), normal_share_below(-z)};
   }
@@ -91,7 +91,7 @@ std::vector<const Sample*> WeightedSamples::draws(std::size_t count) const {
   return all;
 }
 
-double WeightedSamples::below(const Measured& measured, std::optional<std::size_t> i) const {
+double WeightedSamples::below(const MeasuredValue& measured, std::optional<std::size_t> i) const {
   double sum = 0, share = 0;
   for (const Sample& s : accepted) {
     const double x = i ? std::exp(s.predicted[*i]) : s.state.rupture_velocity_m_s;
@@ -101,7 +101,8 @@ double WeightedSamples::below(const Measured& measured, std::optional<std::size_
   return share / sum;
 }
 
-std::optional<double> WeightedSamples::nearest_deviation(const Measured& measured, std::optional<std::size_t> i) const {
+std::optional<double> WeightedSamples::nearest_deviation(const MeasuredValue& measured,
+                                                         std::optional<std::size_t> i) const {
   std::optional<double> nearest;
   for (const Sample& s : accepted) {
     const double z = deviations_above(measured, i ? std::exp(s.predicted[*i]) : s.state.rupture_velocity_m_s);

@@ -54,16 +54,16 @@ struct WeightedSamples {
   std::vector<const Sample*> draws(std::size_t count) const;
   /// Probability that a repeated observation is below the actual one. `i` is its position in `evidence`; the rupture
   /// velocity has none.
-  double below(const catalogue::Measured& measured, std::optional<std::size_t> i) const;
+  double below(const catalogue::MeasuredValue& measured, std::optional<std::size_t> i) const;
   /// Distance of an observation above the nearest prediction, in its standard deviations. Absent for an exact number.
-  std::optional<double> nearest_deviation(const catalogue::Measured& measured, std::optional<std::size_t> i) const;
+  std::optional<double> nearest_deviation(const catalogue::MeasuredValue& measured, std::optional<std::size_t> i) const;
 };
 
 /// Probabilities that a repeated observation of the true value x is below and above the middle of the actual one.
 struct Shares {
   double below, above;
 };
-Shares shares_of(const catalogue::Measured& measured, double x);
+Shares shares_of(const catalogue::MeasuredValue& measured, double x);
 
 /// Doubles the number of samples until they suffice or reach `most`. It also stops when even `most` would not give
 /// enough effective samples.

@@ -41,7 +41,7 @@ ExplicitChain::ExplicitChain(const Problem& p, const MotionOf& start, const Exec
   StartCheck look;
   ranks().together([&] {
     check(p, ranks().share_of_machine());
-    share_ = std::make_unique<Share>(p, execution, ranks(), 0);
+    share_ = std::make_unique<RankSites>(p, execution, ranks(), 0);
     share_->fill([&](std::size_t begin, std::size_t end) {
       return first_levels(p, share_->scheme(), share_->forces(), start, begin, end, look);
     });
@@ -70,7 +70,7 @@ void ExplicitChain::start_from(long level, const LevelsOf& saved) {
     if (!(level >= 0 && level <= most))
       throw InputError(
           {.key = "resume", .value = std::to_string(level), .problem = "not a level", .allowed = "0 or greater"});
-    share_ = std::make_unique<Share>(problem(), execution_, ranks(), level);
+    share_ = std::make_unique<RankSites>(problem(), execution_, ranks(), level);
     share_->fill(saved);
   });
 }
@@ -178,7 +178,7 @@ void compute_next(const Forces& forces, Displaced& d) {
 
 /// Both levels of sites [from, to) and five on either side, or more where an absorbing end needs its neighbours; and
 /// the next level, which is computed only for the window.
-Displaced displaced(const Share& share, std::size_t from, std::size_t to) {
+Displaced displaced(const RankSites& share, std::size_t from, std::size_t to) {
   const Problem& p = share.problem();
   const EndConditions& ends = share.ends();
   const long n = static_cast<long>(p.grid.sites);
@@ -207,7 +207,7 @@ Displaced displaced(const Share& share, std::size_t from, std::size_t to) {
 
 /// u / 2 pi and the force of the substrate on sites from `low` on, at three levels.
 struct ThreeLevels {
-  ThreeLevels(const Share& share, const Displaced& d) : low(d.low) {
+  ThreeLevels(const RankSites& share, const Displaced& d) : low(d.low) {
     for (auto* values : {&u_old, &u_now, &u_next, &S_old, &S_now, &S_next}) values->resize(d.wide);
     const ContactField& changing = share.forces().contacts();
     const double *a2 = share.forces().a2(low), *a2_old = changing.acts() ? changing.before(low) : a2,
@@ -226,7 +226,7 @@ struct ThreeLevels {
 
 }  // namespace
 
-Window window_of(const Share& share, std::size_t from, std::size_t to, double time) {
+Window window_of(const RankSites& share, std::size_t from, std::size_t to, double time) {
   const Problem& p = share.problem();
   const double dt = share.scheme().dt, h = share.scheme().h, tau = time - share.time();
   const ThreeLevels v(share, displaced(share, from, to));

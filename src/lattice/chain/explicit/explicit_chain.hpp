@@ -13,7 +13,7 @@
 
 namespace slipfront::chain {
 
-class Share;
+class RankSites;
 
 /// A chain that advances by explicit steps, all equally long: level by level of the diamond rule, or of leapfrog on a
 /// lattice (docs/chain.md).
@@ -57,12 +57,12 @@ class ExplicitChain final : public Chain {
   void start_from(long level, const LevelsOf& saved);
 
   Execution execution_;
-  std::unique_ptr<Share> share_;
+  std::unique_ptr<RankSites> share_;
   bool valid_ = true;
 };
 
 /// Sites [from, to) of a share, or of at most 4 next to it, after an exchange, at `time`, which is no more than a step
 /// away. u and velocity are of fourth order.
-Window window_of(const Share& share, std::size_t from, std::size_t to, double time);
+Window window_of(const RankSites& share, std::size_t from, std::size_t to, double time);
 
 }  // namespace slipfront::chain

@@ -54,7 +54,7 @@ bool has_halo(EndCondition side) { return side == EndCondition::joined || side =
 
 }  // namespace
 
-Share::Share(const Problem& p, const Execution& e, const Ranks& ranks, long at)
+RankSites::RankSites(const Problem& p, const Execution& e, const Ranks& ranks, long at)
     : ranks_(ranks),
       problem_(p),
       scheme_(scheme_of(p)),
@@ -72,14 +72,14 @@ Share::Share(const Problem& p, const Execution& e, const Ranks& ranks, long at)
   make_slabs();
 }
 
-void Share::check_execution() const {
+void RankSites::check_execution() const {
   if (execution_.threads < 1)
     throw InputError(
         {.key = "threads", .value = std::to_string(execution_.threads), .problem = "out of range", .allowed = ">= 1"});
   check_ranks(problem_, ranks_);
 }
 
-void Share::make_slabs() {
+void RankSites::make_slabs() {
   const std::size_t whole = end_block_ - first_block_;
   const auto threads = static_cast<std::size_t>(execution_.threads);
   execution_.tile = std::max(execution_.tile, 2 * halo);
@@ -103,7 +103,7 @@ void Share::make_slabs() {
                          cuts_of(blocks_, slab.begin(), slab.begin() + slab.size(), execution_.tile));
 }
 
-void Share::fill(const LevelsOf& source) {
+void RankSites::fill(const LevelsOf& source) {
   constexpr std::size_t piece = 65536;
   for (Slab& slab : slabs_)
     for (std::size_t at = 0; at < slab.size(); at += piece) {
@@ -120,7 +120,7 @@ void Share::fill(const LevelsOf& source) {
   forces_.resumed();
 }
 
-void Share::exchange_with_ranks() {
+void RankSites::exchange_with_ranks() {
   std::array<double, 2 * halo> to_left, to_right, from_left, from_right;
   Slab &first = slabs_.front(), &last = slabs_.back();
   const std::size_t rest = last.size() - halo;
@@ -139,7 +139,7 @@ void Share::exchange_with_ranks() {
   }
 }
 
-void Share::exchange_slab(std::size_t i) {
+void RankSites::exchange_slab(std::size_t i) {
   Slab& slab = slabs_[i];
   const std::size_t count = slabs_.size(), most = std::min(halo, problem_.grid.sites);
   const bool alone = ranks_.size() == 1;
@@ -155,7 +155,7 @@ void Share::exchange_slab(std::size_t i) {
   }
 }
 
-void Share::exchange() {
+void RankSites::exchange() {
   if (ranks_.size() > 1) exchange_with_ranks();
   for (std::size_t i = 0; i < slabs_.size(); ++i) exchange_slab(i);
   forces_.exchange_all(ranks_);
@@ -163,13 +163,13 @@ void Share::exchange() {
 
 /// Calls each(i) for every slab, on all threads. `levels` is the number of levels that the slabs advance.
 template <class Each>
-void Share::for_slabs(std::size_t levels, const Each& each) {
+void RankSites::for_slabs(std::size_t levels, const Each& each) {
   const bool worth = (end_ - begin_) * levels > 50000;  // waking a thread takes longer than fewer site updates
   const int threads = std::min(static_cast<int>(slabs_.size()), execution_.threads);
   for_each_on_team(slabs_.size(), worth ? threads : 1, each, 1);
 }
 
-void Share::advance(std::size_t count) {
+void RankSites::advance(std::size_t count) {
   if (ranks_.size() > 1) exchange_with_ranks();
   forces_.exchange(ranks_);
   for_slabs(count, [this](std::size_t i) {
@@ -181,7 +181,7 @@ void Share::advance(std::size_t count) {
   if (forces_.level_by_level()) forces_.proceed(ranks_);
 }
 
-void Share::check_numbers() const {
+void RankSites::check_numbers() const {
   if (forces_.contacts().acts()) forces_.contacts().check(time());
   for (const Slab& slab : slabs_) {
     if (bounded(slab.now(), slab.size())) continue;
@@ -193,7 +193,7 @@ void Share::check_numbers() const {
   }
 }
 
-std::pair<double, double> Share::site(long j) const {
+std::pair<double, double> RankSites::site(long j) const {
   const long n = static_cast<long>(problem_.grid.sites);
   double now_shift = 0, old_shift = 0, sign = 1;
   const auto reflect = [&](long last, End kind) {
@@ -218,7 +218,7 @@ std::pair<double, double> Share::site(long j) const {
   return {sign * slabs_[i].now()[k] + now_shift, sign * slabs_[i].old()[k] + old_shift};
 }
 
-Levels Share::levels(std::size_t begin, std::size_t end) const {
+Levels RankSites::levels(std::size_t begin, std::size_t end) const {
   Levels levels;
   levels.level = level_;
   for (const Slab& slab : slabs_) {
@@ -233,7 +233,7 @@ Levels Share::levels(std::size_t begin, std::size_t end) const {
   return levels;
 }
 
-std::vector<double> Share::flow_sums() const {
+std::vector<double> RankSites::flow_sums() const {
   std::vector<double> sums = ranks_.joined(meter_.sums);
   double left = 0, right = 0;  // only one slab of one rank has each end
   for (const Slab& slab : slabs_) {
@@ -250,7 +250,7 @@ std::vector<double> Share::flow_sums() const {
   return sums;
 }
 
-void Share::continue_flows(const std::vector<double>& sums) {
+void RankSites::continue_flows(const std::vector<double>& sums) {
   const std::size_t each = WorkMeter::sums_of_block(problem_), all = each * blocks_.count + 2;
   if (sums.size() != all) refuse_levels(sums.size(), std::to_string(all));
   std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(each * first_block_), meter_.sums.size(), meter_.sums.begin());
@@ -258,7 +258,7 @@ void Share::continue_flows(const std::vector<double>& sums) {
   if (end_ == problem_.grid.sites) slabs_.back().outflow.right = sums.back();
 }
 
-Flows Share::flows() const {
+Flows RankSites::flows() const {
   Flows flows;
   const std::vector<double> all = flow_sums();
   double* const kinds[] = {&flows.supplied, &flows.dissipated, &flows.by_contacts};

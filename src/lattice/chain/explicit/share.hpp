@@ -17,12 +17,12 @@ namespace slipfront::chain {
 
 /// The sites of one rank, divided into slabs that threads share. Calls marked (all) exchange messages between
 /// ranks.
-class Share {
+class RankSites {
  public:
   /// Creates the arrays for t = level dt. \throws InputError for more threads or ranks than the chain can have.
-  Share(const Problem& problem, const Execution& execution, const Ranks& ranks, long level);
-  Share(const Share&) = delete;
-  Share& operator=(const Share&) = delete;
+  RankSites(const Problem& problem, const Execution& execution, const Ranks& ranks, long level);
+  RankSites(const RankSites&) = delete;
+  RankSites& operator=(const RankSites&) = delete;
 
   const Problem& problem() const { return problem_; }
   const Scheme& scheme() const { return scheme_; }

@@ -246,7 +246,7 @@ void Sweep::begin_steps(const LevelSites& s, std::size_t last) {
   }
   forces_.displacements(s.coefficients, before_, u_.data(), own, whole_vectors(last));
   forces_.displacements(s.coefficients, now_, y_.data(), own, whole_vectors(last));
-  take_steps(y_.data() + own, u_.data() + own, D_ + own, last - own);
+  keep_differences(y_.data() + own, u_.data() + own, D_ + own, last - own);
 }
 
 /// Measures the work of the step to this level, and then advances the state variables by it.
@@ -282,7 +282,7 @@ void Sweep::last_step(const Tile& t) {
   if (meter_.active()) {
     forces_.displacements(s.coefficients, now_, y_.data(), own, whole_vectors(last));
     std::swap(D_, D_before_);
-    take_steps(y_.data() + own, u_.data() + own, D_ + own, t.width);
+    keep_differences(y_.data() + own, u_.data() + own, D_ + own, t.width);
   }
   finish_step(t, s);
 }

@@ -76,10 +76,10 @@ double least_slip_of_event(const Problem& p) {
   return renewal > 0 ? std::fmin(p.tolerance, renewal / 10) : p.tolerance;
 }
 
-Moment first_moment(const Problem& p, Motion motion, const Ranks& ranks) {
+ChainState first_moment(const Problem& p, Motion motion, const Ranks& ranks) {
   const OwnBlocks own(p.grid.sites, ranks);
   const std::size_t n = own.size();
-  Moment now;
+  ChainState now;
   now.u = std::move(motion.u);
   now.v = motion.velocity.empty() ? std::vector<double>(n, 0.0) : std::move(motion.velocity);
   for (auto* column : {&now.w, &now.slope, &now.acceleration, &now.earlier}) column->assign(n, 0.0);
@@ -300,7 +300,7 @@ void ImplicitChain::archive(Archive& a) {
   a.require(std::isfinite(shown_time));
   if (!a.reads()) return (passed_ ? before_ : now_).archive(a, forces_.own(), ranks());
   ranks().together([&] {
-    Moment saved = now_;
+    ChainState saved = now_;
     saved.archive(a, forces_.own(), ranks());
     forces_.strengthen_contacts(saved);
     now_ = std::move(saved);

@@ -68,13 +68,13 @@ class ImplicitChain final : public Chain {
   Shown shown(long site) const;
   double displacement(long site) const;
 
-  Moment now_;
+  ChainState now_;
   SiteForces forces_;
   ImplicitStep step_;
   mutable WatchedParts parts_;               ///< mutable, because it stores the sums over parts
   mutable Halo before_own_{}, after_own_{};  ///< got by `exchange`
   /// The step that has passed the time of `now_`: its start and its end, if there is one.
-  Moment before_, after_;
+  ChainState before_, after_;
   bool passed_ = false;
 };
 

@@ -91,7 +91,7 @@ void ImplicitStep::evaluate_all(double dt) {
 }
 
 /// Guesses velocities, and chooses the velocity that friction feels.
-void ImplicitStep::prepare(const Moment& from, double dt) {
+void ImplicitStep::prepare(const ChainState& from, double dt) {
   from_ = &from;
   for (std::size_t j = 0; j < sites(); ++j)  // formulas are called from one thread
     forcing_[j] = forces_.given_forcing(j, from.time + dt / 2);
@@ -193,7 +193,7 @@ void ImplicitStep::build_matrix(double dt) {
   });
 }
 
-bool ImplicitStep::solve(const Moment& from, double dt) {
+bool ImplicitStep::solve(const ChainState& from, double dt) {
   constexpr int most_iterations = 40;
   prepare(from, dt);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -268,7 +268,7 @@ void ImplicitStep::find_errors(std::size_t first, std::size_t size, double dt) {
   }
 }
 
-double ImplicitStep::error(const Moment& from, double dt) {
+double ImplicitStep::error(const ChainState& from, double dt) {
   if (!(from.earlier_step > 0)) return 0.125;  // not known yet: grow carefully
   for_groups([&](std::size_t first, std::size_t size) { find_errors(first, size, dt); });
   const double most = *std::max_element(errors_.begin(), errors_.end());
@@ -277,7 +277,7 @@ double ImplicitStep::error(const Moment& from, double dt) {
 
 /// Adds the work of the step to that of the blocks. Friction includes the force of growing contacts, which belongs to
 /// the substrate.
-void ImplicitStep::add_energies(Moment& m, double dt) const {
+void ImplicitStep::add_energies(ChainState& m, double dt) const {
   const OwnBlocks& own = forces_.own();
   for (std::size_t b = 0; b < own.count; ++b) {
     double work = 0, lost = 0, given = 0;
@@ -293,7 +293,7 @@ void ImplicitStep::add_energies(Moment& m, double dt) const {
   }
 }
 
-ImplicitStep::Works ImplicitStep::works_at(const Moment& m, std::size_t j, double dt) const {
+ImplicitStep::Works ImplicitStep::works_at(const ChainState& m, std::size_t j, double dt) const {
   const bool held = springs_.held(j);
   const double p = held ? 0 : mean_velocity(j), weight = springs_.weight(j), K = forces_.pull(j);
   const double velocity = forces_.problem().loading.velocity;
@@ -310,7 +310,7 @@ ImplicitStep::Works ImplicitStep::works_at(const Moment& m, std::size_t j, doubl
   return at;
 }
 
-void ImplicitStep::take(Moment& m, double dt) const {
+void ImplicitStep::take(ChainState& m, double dt) const {
   add_energies(m, dt);
   for_sites([&](std::size_t j) {
     if (springs_.held(j)) return;

@@ -25,18 +25,18 @@ class ImplicitStep {
   ImplicitStep(const SiteForces& forces, int threads);
 
   /// (all) Finds the velocities at the end of a step with Newton's method. Returns whether the method converged.
-  bool solve(const Moment& from, double dt);
+  bool solve(const ChainState& from, double dt);
   /// (all) The largest error of the step that `solve` found, divided by the tolerance. It considers u, u_t and the
   /// logarithm of the state variables.
-  double error(const Moment& from, double dt);
+  double error(const ChainState& from, double dt);
   /// Takes the step that `solve` found: advances `m`, from which it was tried, to the end of the step, except its time.
-  void take(Moment& m, double dt) const;
+  void take(ChainState& m, double dt) const;
   /// (all) After `solve` has failed: x of the first site without a finite force, or of the fastest site if all forces
   /// are finite.
   double hardest_position() const;
 
  private:
-  void prepare(const Moment& from, double dt);
+  void prepare(const ChainState& from, double dt);
   void evaluate(std::size_t j, double dt);
   double friction_at(std::size_t j, double w, double dt) const;
   void find_friction(std::size_t first, std::size_t size, const double* w, double dt, double* force) const;
@@ -50,11 +50,11 @@ class ImplicitStep {
   double creep_error(std::size_t j, double dt) const;
   void find_state_errors(std::size_t first, std::size_t size, double dt, const double* by_velocity,
                          double* error) const;
-  void add_energies(Moment& m, double dt) const;
+  void add_energies(ChainState& m, double dt) const;
   struct Works {
     double supplied = 0, dissipated = 0, by_contacts = 0;
   };
-  Works works_at(const Moment& m, std::size_t j, double dt) const;  ///< those of the step at a site
+  Works works_at(const ChainState& m, std::size_t j, double dt) const;  ///< those of the step at a site
   template <class Each>
   void for_sites(const Each& each) const;
   template <class Each>
@@ -70,7 +70,7 @@ class ImplicitStep {
   const CompactSprings& springs_;
   const friction::Friction& friction_law_;
   [[maybe_unused]] int threads_;  ///< number of OpenMP threads
-  const Moment* from_ = nullptr;
+  const ChainState* from_ = nullptr;
   SiteForces::Drives drives_;
   double rounding_ = 0;  ///< rounding error of the force on a site
   // These have an element for each site.

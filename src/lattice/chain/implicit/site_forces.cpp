@@ -8,7 +8,7 @@
 
 namespace slipfront::chain {
 
-SiteForces::SiteForces(const Problem& p, Moment& now, const Ranks& ranks)
+SiteForces::SiteForces(const Problem& p, ChainState& now, const Ranks& ranks)
     : problem_(p),
       variables_(p.friction.state_size()),
       rubs_(p.friction.acts()),
@@ -22,7 +22,7 @@ SiteForces::SiteForces(const Problem& p, Moment& now, const Ranks& ranks)
   start_contacts(now);
 }
 
-void SiteForces::start_contacts(Moment& now) {
+void SiteForces::start_contacts(ChainState& now) {
   const Problem& p = problem_;
   if (contacts_.act()) now.excess.assign(sites(), 0);
   if (!(p.contact || contacts_.act()) || !p.substrate) return;
@@ -36,11 +36,11 @@ void SiteForces::start_contacts(Moment& now) {
   strengthen_contacts(now);
 }
 
-void SiteForces::strengthen_contacts(Moment& m) const {
+void SiteForces::strengthen_contacts(ChainState& m) const {
   for (std::size_t j = 0; j < base_.size(); ++j) m.a2[j] = base_[j] * contacts_.strength(m.state[j], m.excess[j]);
 }
 
-double SiteForces::forcing(const Moment& m, std::size_t j) const {
+double SiteForces::forcing(const ChainState& m, std::size_t j) const {
   return given_forcing(j, m.time) + pull(j) * stretch(j, m.u[j], m.time);
 }
 
@@ -52,13 +52,13 @@ SiteForces::Drives SiteForces::drives_of_ends(double time) const {
   return {at(p.grid.x(0)), at(p.grid.x(p.grid.sites - 1))};
 }
 
-double SiteForces::friction(const Moment& m, std::size_t j, double velocity) const {
+double SiteForces::friction(const ChainState& m, std::size_t j, double velocity) const {
   const double force =
       problem_.friction.force(velocity, friction::LocalState(m.state).subspan(variables_ * j, variables_));
   return contacts_.act() ? effective_stress(m, j) * force : force;
 }
 
-double SiteForces::loading_energy(const Moment& m) const {
+double SiteForces::loading_energy(const ChainState& m) const {
   if (!problem_.loading.acts()) return 0;
   return own().sum(ranks(), [&](std::size_t j) {
     const double by = stretch(j, m.u[j], m.time);
@@ -66,7 +66,7 @@ double SiteForces::loading_energy(const Moment& m) const {
   });
 }
 
-std::span<const double> SiteForces::evolved(const Moment& m, std::size_t j, double p, double time,
+std::span<const double> SiteForces::evolved(const ChainState& m, std::size_t j, double p, double time,
                                             State& values) const {
   const std::span<double> state(values.data(), variables_);
   if (variables_ == 0) return state;
@@ -75,7 +75,7 @@ std::span<const double> SiteForces::evolved(const Moment& m, std::size_t j, doub
   return state;
 }
 
-SiteForces::Aged SiteForces::aged(const Moment& m, std::size_t j, double p, double dt) const {
+SiteForces::Aged SiteForces::aged(const ChainState& m, std::size_t j, double p, double dt) const {
   const double theta = m.state[j], excess = m.excess[j];
   State middle, end;
   evolved(m, j, p, dt / 2, middle);
@@ -85,7 +85,7 @@ SiteForces::Aged SiteForces::aged(const Moment& m, std::size_t j, double p, doub
           contacts_.share(contacts_.excess_after(dt / 2, excess, theta, middle[0]))};
 }
 
-void SiteForces::evolve(Moment& m, std::size_t j, double p, double dt) const {
+void SiteForces::evolve(ChainState& m, std::size_t j, double p, double dt) const {
   if (!contacts_.act()) {
     State values;
     const std::span<const double> end = evolved(m, j, p, dt, values);
@@ -98,7 +98,7 @@ void SiteForces::evolve(Moment& m, std::size_t j, double p, double dt) const {
   if (!base_.empty()) m.a2[j] = then.a2;
 }
 
-void SiteForces::check_contacts(const Moment& m) const {
+void SiteForces::check_contacts(const ChainState& m) const {
   for (std::size_t j = 0; j < sites(); ++j)
     if (!(effective_stress(m, j) > 0))
       throw NumericsError("t = " + digits(m.time) + ": at x = " + digits(x(j)) +

@@ -15,7 +15,7 @@
 namespace slipfront::chain {
 
 /// The motion between two implicit steps, and everything else that the next step depends on.
-struct Moment {
+struct ChainState {
   double time = 0;
   long steps = 0;
   double last_step = 0, earlier_step = 0, next_step = 0;
@@ -63,7 +63,7 @@ inline double mean_sine(double middle, double half) { return std::sin(middle) * 
 class SiteForces {
  public:
   /// (all) Sets the state of friction and the contacts of `now`, whose u and v are those of the start.
-  SiteForces(const Problem& problem, Moment& now, const Ranks& ranks);
+  SiteForces(const Problem& problem, ChainState& now, const Ranks& ranks);
 
   const Problem& problem() const { return problem_; }
   const CompactSprings& springs() const { return springs_; }
@@ -77,8 +77,8 @@ class SiteForces {
   /// Whether a^2 changes with them: not without a substrate.
   bool has_changing_contacts() const { return !base_.empty(); }
 
-  double contact_squared(const Moment& m, std::size_t j) const { return m.a2.empty() ? all_contact_ : m.a2[j]; }
-  double effective_stress(const Moment& m, std::size_t j) const {
+  double contact_squared(const ChainState& m, std::size_t j) const { return m.a2.empty() ? all_contact_ : m.a2[j]; }
+  double effective_stress(const ChainState& m, std::size_t j) const {
     return contacts_.act() ? contacts_.share(m.excess[j]) : 1;
   }
   /// Stiffness of the spring that loads a site, per length.
@@ -98,7 +98,7 @@ class SiteForces {
   }
   /// F(x, t) as the problem has it, and with the pull of the springs.
   double given_forcing(std::size_t j, double time) const { return problem_.forcing ? problem_.forcing(x(j), time) : 0; }
-  double forcing(const Moment& m, std::size_t j) const;
+  double forcing(const ChainState& m, std::size_t j) const;
   /// The forces that drive the fixed ends of the chain: F and that of the springs. They are 0 under friction that is
   /// steep at rest, which balances them next to the end already.
   struct Drives {
@@ -109,33 +109,33 @@ class SiteForces {
   double stretch(std::size_t j, double u, double time) const {
     return problem_.loading.velocity * time - (u - first_u_[j]);
   }
-  double friction(const Moment& m, std::size_t j, double velocity) const;
-  double loading_energy(const Moment& m) const;  ///< (all) in the springs that pull
+  double friction(const ChainState& m, std::size_t j, double velocity) const;
+  double loading_energy(const ChainState& m) const;  ///< (all) in the springs that pull
 
   static constexpr std::size_t most_variables = 16;
   using State = std::array<double, most_variables>;
   /// The state variables of a site after a time at the velocity p. `values` has room for them.
-  std::span<const double> evolved(const Moment& m, std::size_t j, double p, double time, State& values) const;
+  std::span<const double> evolved(const ChainState& m, std::size_t j, double p, double time, State& values) const;
 
   /// State and contact of a site after a step from `m` at the mean velocity p, and 1 - p_pore in its middle. For
   /// friction that changes contacts.
   struct Aged {
     double theta, excess, a2, share;
   };
-  Aged aged(const Moment& m, std::size_t j, double p, double dt) const;
+  Aged aged(const ChainState& m, std::size_t j, double p, double dt) const;
   /// Changes the state and the contact of a site over a step at the mean velocity p.
-  void evolve(Moment& m, std::size_t j, double p, double dt) const;
+  void evolve(ChainState& m, std::size_t j, double p, double dt) const;
   /// a^2 from the states of the sites. It is always computed in this way, so a resumed run has the same bits.
-  void strengthen_contacts(Moment& m) const;
+  void strengthen_contacts(ChainState& m) const;
   /// \throws NumericsError where the pressure of pores has reached the normal stress.
-  void check_contacts(const Moment& m) const;
+  void check_contacts(const ChainState& m) const;
 
   static constexpr double smallest_velocity = 1e-290;  ///< far below that of any interface at rest
   /// A small change of a velocity w, away from rest, for the slope of friction there.
   static double difference(double w) { return std::copysign(std::fmax(1e-6 * std::fabs(w), smallest_velocity), w); }
 
  private:
-  void start_contacts(Moment& now);
+  void start_contacts(ChainState& now);
 
   Problem problem_;
   std::size_t variables_;

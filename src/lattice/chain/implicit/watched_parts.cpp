@@ -29,7 +29,7 @@ std::vector<double> middles_of_parts(const Problem& p, std::size_t count) {
   return x;
 }
 
-WatchedParts::WatchedParts(const SiteForces& forces, const Moment& now)
+WatchedParts::WatchedParts(const SiteForces& forces, const ChainState& now)
     : forces_(forces), direction_(forces.problem().loading.velocity < 0 ? -1 : 1), first_(0) {
   const Problem& p = forces.problem();
   const OwnBlocks& own = forces.own();
@@ -49,7 +49,7 @@ WatchedParts::WatchedParts(const SiteForces& forces, const Moment& now)
   all_.resize(sums * pieces_.size());
 }
 
-void WatchedParts::add_up(const Moment& m) {
+void WatchedParts::add_up(const ChainState& m) {
   const CompactSprings& springs = forces_.springs();
   const Pulled where = forces_.problem().loading.where;
   const std::size_t offset = forces_.own().begin;
@@ -78,13 +78,13 @@ double WatchedParts::load_by_sums() const {
   return load / (p.grid.spacing * static_cast<double>(p.boundary.periodic ? p.grid.sites : p.grid.sites - 1));
 }
 
-double WatchedParts::load(const Moment& m) {
+double WatchedParts::load(const ChainState& m) {
   if (!forces_.problem().loading.acts()) return 0;
   add_up(m);
   return load_by_sums();
 }
 
-void WatchedParts::look(Moment& m) {
+void WatchedParts::look(ChainState& m) {
   add_up(m);
   std::fill(parts_.u.begin(), parts_.u.end(), 0.0);
   std::fill(parts_.velocity.begin(), parts_.velocity.end(), 0.0);

@@ -17,18 +17,18 @@ std::vector<double> middles_of_parts(const Problem& problem, std::size_t count);
 class WatchedParts {
  public:
   /// (all) The parts of the motion `now` of the start. `forces` must outlive this object.
-  WatchedParts(const SiteForces& forces, const Moment& now);
+  WatchedParts(const SiteForces& forces, const ChainState& now);
 
   /// (all) Hands the last step to the log of events of `m`. Slip counts as positive in the direction of the springs.
-  void look(Moment& m);
+  void look(ChainState& m);
   /// (all) The load at this moment: the mean force on a site, or the stress at the end that is pulled.
-  double load(const Moment& m);
+  double load(const ChainState& m);
 
  private:
   struct Piece {
     std::size_t part, begin, end;  ///< sites of the chain
   };
-  void add_up(const Moment& m);
+  void add_up(const ChainState& m);
   double load_by_sums() const;
 
   const SiteForces& forces_;

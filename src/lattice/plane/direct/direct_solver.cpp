@@ -186,7 +186,7 @@ class DirectSolver : public Solver {
   const Ranks& ranks_;
   Sites sites_;
   Motion motion_;
-  Look look_;
+  Sums look_;
   std::vector<double> start_;  ///< u at t = 0
   double half_box_ = 0;        ///< half the width of the squares over which slip at a point is averaged
   Stepper stepper_;

@@ -116,7 +116,7 @@ void Stepper::rub(const Motion& m, std::size_t row, const double* v, const doubl
   const std::size_t first = sites_.at(0, row);
   if (friction_.is_viscous()) std::copy_n(v, sites_.nx, &v_[first]);
   const Rates rates{v, friction_.is_viscous() ? &m.v_old[first] : nullptr, v_tt};
-  const Rubbed work = friction_.slow(row, problem_.nucleation_has_begun(time_of(m)), rates, before, after);
+  const FrictionWork work = friction_.slow(row, problem_.nucleation_has_begun(time_of(m)), rates, before, after);
   const double* const force = row_of(loads_.force(), sites_, static_cast<std::ptrdiff_t>(row));
   work_of_row_[row] = {.dissipated = work.dissipated,
                        .supplied = force ? work_of(sites_.nx, force, before, after) : 0,
@@ -267,7 +267,7 @@ void Stepper::find_velocity(const std::vector<double>& u, const std::vector<doub
 }
 
 /// Takes one more step, for the velocity in the middle of two steps.
-void Stepper::look_at(const Motion& m, double time, Look& look) {
+void Stepper::look_at(const Motion& m, double time, Sums& look) {
   next_ = m.old;
   step(m, next_);
   look.time = time;
@@ -286,7 +286,7 @@ void Stepper::look_at(const Motion& m, double time, Look& look) {
     throw NumericsError("t = " + digits(time) + ": the displacement is not finite");
 }
 
-void Stepper::find_energy(const std::vector<double>& u, Look& look) const {
+void Stepper::find_energy(const std::vector<double>& u, Sums& look) const {
   std::vector<double> kinetic(sites_.ny), elastic(sites_.ny);
   for_each_on_team(sites_.ny, threads_, [&](std::size_t j) {
     const std::size_t at = sites_.at(0, j);
@@ -304,7 +304,7 @@ void Stepper::find_energy(const std::vector<double>& u, Look& look) const {
 }
 
 /// The work until the time of the motion, half a step after the time to which it is counted.
-void Stepper::find_work(const Motion& m, Look& look) const {
+void Stepper::find_work(const Motion& m, Sums& look) const {
   const double half = m.steps == 0 ? 0 : 0.5;
   const auto until_now = [&](double RowWork::*part) {
     std::vector<double> of_row(sites_.ny);

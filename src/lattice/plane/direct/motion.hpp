@@ -26,7 +26,7 @@ struct Motion {
 };
 
 /// The motion at a time of observation, which is at most half a step from that of the step.
-struct Look {
+struct Sums {
   double time = 0;  ///< in units of the scenario
   std::vector<double> u, velocity;
   /// Stretched energies of the whole plane at the time of the step.
@@ -44,7 +44,7 @@ class Stepper {
   /// Steps until the time is at most half a step ahead, or until `interrupted` returns true. Returns whether it is.
   bool advance(Motion& motion, double time, const std::function<bool()>& interrupted);
   /// Fills `look`. \throws NumericsError for a displacement that is not finite.
-  void look_at(const Motion& motion, double time, Look& look);
+  void look_at(const Motion& motion, double time, Sums& look);
   /// Fills the ghosts of an array from the sites inside the domain and from the other ranks.
   void fill_ghosts(std::vector<double>& f) const;
   /// u_tt of each site at rest without friction and forces.
@@ -70,8 +70,8 @@ class Stepper {
   std::vector<double> accelerations(const std::vector<double>& u) const;
   void find_velocity(const std::vector<double>& u, const std::vector<double>& before, const std::vector<double>& after,
                      std::vector<double>& velocity) const;
-  void find_energy(const std::vector<double>& u, Look& look) const;
-  void find_work(const Motion& motion, Look& look) const;
+  void find_energy(const std::vector<double>& u, Sums& look) const;
+  void find_work(const Motion& motion, Sums& look) const;
   double integral(const std::vector<double>& of_row) const;
   /// Calls each(at, i) for the sites of all rows, on several threads; `at` is the index of a site.
   template <class Each>

@@ -55,8 +55,9 @@ SiteFriction::SiteFriction(const Problem& problem, const Sites& sites, double dt
                     std::span(states_).subspan(each_ * site, each_));
 }
 
-Rubbed SiteFriction::slow(std::size_t j, bool began, const Rates& rates, const double* before, double* after) const {
-  Rubbed work;
+FrictionWork SiteFriction::slow(std::size_t j, bool began, const Rates& rates, const double* before,
+                                double* after) const {
+  FrictionWork work;
   if (problem_.edges == Edges::absorbing) work.radiated = absorb(j, before, after);
   if (is_viscous())
     work.dissipated = rub_viscous(sites_.nx, dt_, &sites_.viscous[sites_.at(0, j)], rates, before, after);

@@ -108,7 +108,7 @@ class Loads {
 };
 
 /// The work against friction and against absorbing edges in one step of a row, per area of a site.
-struct Rubbed {
+struct FrictionWork {
   double dissipated = 0, radiated = 0;
 };
 
@@ -124,7 +124,7 @@ class SiteFriction {
   /// force is that of D = (after - before) / (2 dt): for f = C w this is of fourth order, because the terms of v_t in
   /// u_t = D - dt^2 / 6 v_t and in dt^2 / 12 (v - f)_tt cancel. The work of f = C w is that
   /// of u_t to fourth order, and the work of another law that of D.
-  Rubbed slow(std::size_t j, bool began, const Rates& rates, const double* before, double* after) const;
+  FrictionWork slow(std::size_t j, bool began, const Rates& rates, const double* before, double* after) const;
   /// Changes the states of row j by the slip from `now` to `after`.
   void age(std::size_t j, const double* now, const double* after);
   /// Reduces the acceleration of row j at rest by the strength of friction, at t = 0.

@@ -143,7 +143,7 @@ SLIPFRONT_CLONES void displacements(const PeriodicForce& force, double eps, cons
   }
 }
 
-SLIPFRONT_CLONES void take_steps(const double* u_next, double* u, double* D, std::size_t size) {
+SLIPFRONT_CLONES void keep_differences(const double* u_next, double* u, double* D, std::size_t size) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) {
     D[j] = turn * (u_next[j] - u[j]);

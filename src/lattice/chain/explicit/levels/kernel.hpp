@@ -46,7 +46,7 @@ void displacements(const PeriodicForce& sine, double eps, const double* a2, cons
 void displacements(const PeriodicForce& f, double eps, const double* coefficients, const double* z, double* u,
                    std::size_t begin, std::size_t end);
 /// Computes the step D from u to u_next, in radians, and sets u to u_next.
-void take_steps(const double* u_next, double* u, double* D, std::size_t size);
+void keep_differences(const double* u_next, double* u, double* D, std::size_t size);
 /// Computes the second difference of z over levels, in radians.
 void second_differences(const double* before, const double* now, const double* next, double* B, std::size_t size);
 

@@ -50,9 +50,9 @@ StepTaken take_step_from(const std::vector<double>& before, Cells& cells, const 
 constexpr double smallest_scale = 1e-305;
 
 /// The sizes by which the errors of time steps are measured.
-class Measures {
+class StepScales {
  public:
-  Measures(const Problem& problem, const InitialGrid& initial) : problem_(problem), initial_(initial) {}
+  StepScales(const Problem& problem, const InitialGrid& initial) : problem_(problem), initial_(initial) {}
 
   /// Scales of widths and momenta, in the order of the unknowns, from the last rates of `equations`.
   void find_scale(const Cells& cells, const Semidiscrete& equations, double crossing, std::vector<double>& scale) const;

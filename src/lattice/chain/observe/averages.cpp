@@ -1,11 +1,11 @@
-#include "lattice/chain/measure/averages.hpp"
+#include "lattice/chain/observe/averages.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/observe/totals.hpp"
 #include "math/constants.hpp"
 #include "math/digits.hpp"
 #include "math/interpolation.hpp"

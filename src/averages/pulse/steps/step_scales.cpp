@@ -1,4 +1,4 @@
-#include "averages/pulse/steps/measures.hpp"
+#include "averages/pulse/steps/step_scales.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ bool cells_jump(const std::vector<double>& before, const std::vector<double>& af
 
 using std::numbers::pi;
 
-double Measures::unseen_push(const Cells& cells, double dt) const {
+double StepScales::unseen_push(const Cells& cells, double dt) const {
   if (!problem_.forcing) return 0;
   constexpr double last = Ssprk54::last_stage;
   const std::size_t stride = std::max<std::size_t>(cells.size() / 64, 1);
@@ -48,7 +48,7 @@ double Measures::unseen_push(const Cells& cells, double dt) const {
   return largest > 0 ? missed / largest : 0;
 }
 
-double Measures::mean_speed(const Cells& cells) const {
+double StepScales::mean_speed(const Cells& cells) const {
   if (cells.time == 0) return 0;
   const std::size_t stride = std::max<std::size_t>(cells.size() / 64, 1);
   double x = cells.left_edge(), charge = -cells.entered_left, way = 0;
@@ -63,8 +63,8 @@ double Measures::mean_speed(const Cells& cells) const {
 /// Momenta are measured by the largest, or at rest by what the pressure soon makes of the densest cell: a sparse cell
 /// is pushed by its neighbours. What is slower by a thousandth than the mean so far, as after a push that has ended,
 /// adds nothing to slip; and the forces of a contact profile are differences of numbers of size 1.
-void Measures::find_scale(const Cells& cells, const Semidiscrete& equations, double crossing,
-                          std::vector<double>& scale) const {
+void StepScales::find_scale(const Cells& cells, const Semidiscrete& equations, double crossing,
+                            std::vector<double>& scale) const {
   const double rate = equations.largest_friction_rate();
   const double damping = rate > 0 ? rate * crossing : 0;  // waves may never cross a cell: 0 times infinity
   double fastest = 8e-3 * *std::max_element(equations.s().begin(), equations.s().end()) / (1 + damping);

@@ -1,4 +1,4 @@
-#include "lattice/chain/measure/totals.hpp"
+#include "lattice/chain/observe/totals.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "lattice/chain/measure/averages.hpp"
+#include "lattice/chain/observe/averages.hpp"
 #include "math/constants.hpp"
 
 namespace slipfront::chain {
