@@ -22,7 +22,7 @@ using output::Snapshot;
 constexpr std::vector<double> Profile::*every_field[] = {&Profile::k, &Profile::U,    &Profile::W,
                                                          &Profile::H, &Profile::slip, &Profile::trains};
 
-constexpr FieldVariable fields[] = {
+constexpr FieldVariable every_variable[] = {
     {{"k", "dislocation density (2 pi times dislocations per length)", "A / b", "Eqs. 4-5"}, &Profile::k},
     {{"Sigma", "shear stress, averaged over a period of the train (equal to k)", "mu A / pi", "Eq. 5"}, &Profile::k},
     {{"U", "velocity of the dislocations", "c", "Eq. 4"}, &Profile::U},
@@ -44,21 +44,23 @@ std::vector<double> FieldVariable::of(const Snapshot& snapshot, const Snapshot& 
   return row;
 }
 
-std::span<const FieldVariable> field_variables() { return fields; }
+std::span<const FieldVariable> field_variables() { return every_variable; }
 
 std::span<std::vector<double> Profile::*const> profile_fields() { return every_field; }
 
 std::vector<const FieldVariable*> chosen_fields(const std::vector<std::string>& names) {
   std::string known;
-  for (const FieldVariable& field : fields) known += (known.empty() ? "" : ", ") + std::string(field.about.name);
+  for (const FieldVariable& field : every_variable)
+    known += (known.empty() ? "" : ", ") + std::string(field.about.name);
   for (const std::string& name : names)
-    if (std::none_of(std::begin(fields), std::end(fields), [&](const auto& field) { return field.about.name == name; }))
+    if (std::none_of(std::begin(every_variable), std::end(every_variable),
+                     [&](const auto& field) { return field.about.name == name; }))
       throw InputError({.key = "output.variables", .value = name, .problem = "unknown variable", .allowed = known});
 
   const auto named = [&](std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); };
   const bool drop_alone = named("stress_drop") && !named("k") && !named("Sigma");
   std::vector<const FieldVariable*> chosen;
-  for (const FieldVariable& field : fields)
+  for (const FieldVariable& field : every_variable)
     if ((names.empty() && !field.on_request) || named(field.about.name) || (drop_alone && field.about.name == "Sigma"))
       chosen.push_back(&field);
   return chosen;

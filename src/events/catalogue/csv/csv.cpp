@@ -104,7 +104,7 @@ void CsvTable::count(const std::vector<std::string>& cells) {
     if (!text.empty() && std::string_view("<>~").find(text.front()) != std::string_view::npos) text.erase(0, 1);
     const bool is_number = medium::number(text) || (text.find("+-") != std::string::npos && text.front() <= '9');
     ++(is_number ? counts_[i].numbers : counts_[i].texts);
-    if (std::none_of(text.begin(), text.end(), [](char c) { return is_letter(c) && c != 'e' && c != 'E'; }))
+    if (std::none_of(text.begin(), text.end(), [](char one) { return is_letter(one) && one != 'e' && one != 'E'; }))
       ++counts_[i].bare;
   }
 }
