@@ -60,10 +60,11 @@ TEST(Derived, NothingReplacesAnObservationOrABound) {
 }
 
 TEST(Derived, ALengthWithoutUnitIsNotUsed) {
-  const auto r = evaluated("name,slip (m),length,duration (s)\nA,1,60,20\n");
-  EXPECT_TRUE(r.error.empty()) << r.error;
-  EXPECT_FALSE(r.observation.rupture_length);
-  EXPECT_TRUE(warns(r, "column 'length' has no unit: not used"));
+  const TableNotes notes = read_csv("name,slip (m),length,duration (s)\nA,1,60,20\n", "t.csv", [](const Entry& entry) {
+    EXPECT_FALSE(entry.error) << entry.error->problem;
+    EXPECT_FALSE(entry.observation.rupture_length);
+  });
+  EXPECT_EQ(notes.notes, std::vector<std::string>{"t.csv:1: column 'length' has no unit: not used"});
 }
 
 }  // namespace

@@ -16,8 +16,8 @@
 namespace slipfront::plane {
 namespace {
 
-constexpr std::size_t samples = 2000;  ///< points of a ray on which the contours are found first
-constexpr double whole = 1e-6;         ///< fraction of the slip at which the outermost line is found
+constexpr std::size_t samples = 2000;    ///< points of a ray on which the contours are found first
+constexpr double outermost_slip = 1e-6;  ///< fraction of the slip at which the outermost line is found
 
 /// The initial slip on a ray from the origin.
 struct StartRay {
@@ -70,7 +70,7 @@ void check_ray(const StartRay& ray, double wall, double top) {
                     "a slip that falls in each direction");
     before = slip;
   }
-  if (before > whole * top)
+  if (before > outermost_slip * top)
     throw refusal("slip", "the slip is " + digits(before) + " at the edge of the domain, " + ray.place(ray.end),
                   "a slip that falls to 0 inside the domain");
 }
@@ -92,12 +92,12 @@ void find_ray(const Problem& problem, std::size_t k, double top, Loops& loops) {
                   "the same slip around the held region");
   check_ray(ray, wall, std::max(top, on_wall));
   loops.wall[k] = wall;
-  const double least = std::min(whole * top, std::numbers::pi / 2 * loops.label[1]);  // below the second line
+  const double least = std::min(outermost_slip * top, std::numbers::pi / 2 * loops.label[1]);  // below the second line
   for (std::size_t j = 0; j <= loops.rows; ++j) {
     const double level = std::max(2 * std::numbers::pi * loops.label[j], least);
     const bool innermost = j == loops.rows;
     loops.r[j * loops.angles + k] =
-        innermost && wall > 0 ? wall : distance_of(ray, wall, innermost ? top * (1 - whole) : level);
+        innermost && wall > 0 ? wall : distance_of(ray, wall, innermost ? top * (1 - outermost_slip) : level);
   }
 }
 

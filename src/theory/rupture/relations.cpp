@@ -190,7 +190,7 @@ std::span<const ProfileQuantity> profile_quantities() {
 }
 
 State moving_train(double stress, double velocity, const std::string& side) {
-  constexpr double most_stress = 1e6;
+  constexpr double most_moving_stress = 1e6;
   if (!(std::fabs(velocity) <= 0.999999))
     throw InputError({.key = side + "_velocity",
                       .value = digits(velocity),
@@ -198,7 +198,7 @@ State moving_train(double stress, double velocity, const std::string& side) {
                       .allowed = "-0.999999 ... 0.999999, in c"});
   const double phi = std::atanh(velocity), at_rest = stress / std::cosh(phi);
   if (stress == 0) return {phi, 0};
-  if (!(at_rest >= train::smallest_stress && stress <= most_stress))
+  if (!(at_rest >= train::smallest_stress && stress <= most_moving_stress))
     throw InputError(
         {.key = side + "_stress",
          .value = digits(stress),
