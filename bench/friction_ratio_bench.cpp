@@ -22,14 +22,15 @@ void sweep(benchmark::State& state, const Function& function) {
 
 void friction_ratio_evaluate(benchmark::State& state) {
   sweep(state, [](double stress, double damping) {
-    return friction_ratio::evaluate(friction_ratio::Measure::origin, Closure::consistent, stress, damping);
+    return friction_ratio::evaluate(friction_ratio::SlipVelocityKind::origin, Closure::consistent, stress, damping);
   });
 }
 BENCHMARK(friction_ratio_evaluate);
 
 void friction_ratio_value(benchmark::State& state) {
   sweep(state, [](double stress, double damping) {
-    return friction_ratio::evaluate_value(friction_ratio::Measure::origin, Closure::consistent, stress, damping);
+    return friction_ratio::evaluate_value(friction_ratio::SlipVelocityKind::origin, Closure::consistent, stress,
+                                          damping);
   });
 }
 BENCHMARK(friction_ratio_value);

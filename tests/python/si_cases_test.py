@@ -195,6 +195,8 @@ class Outputs(CommandLine):
                 if name == "rise_time":  # slip squared over an integral: noise where there is no slip
                     there = np.abs(one.slip.values[-1]) > 1e-6 * np.abs(one.slip.values).max()
                     a, b = a[there], b[there]
+                if name.endswith("_front_observed"):  # at t = 0, that of the velocity that the train at rest has by its error
+                    a, b = a[1:], b[1:]
                 of = np.concatenate([one[key].values.ravel() for key in one.variables if key.startswith("energy_")]) if name.startswith("energy_") else a
                 size = np.nanmax(np.abs(of)) if of.size and np.isfinite(of).any() else 0
                 np.testing.assert_allclose(b, a, rtol=1e-9, atol=1e-9 * size, err_msg=name)

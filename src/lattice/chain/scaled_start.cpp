@@ -48,9 +48,11 @@ Grid grid_of(const ScaledProblem& s) {
                       .value = digits(s.spacing),
                       .problem = "does not divide a chain of length " + digits(length),
                       .allowed = "> 0, for 1 to 1e15 sites"});
+  // A spacing that divides the chain stays, so that it does not depend on the rounding of units.
+  const bool stays = intervals * s.spacing - length < 1e-9 * s.spacing;
   const bool longer = s.model == Model::lattice && !s.boundary.periodic;
   return {.left = s.scale * s.left,
-          .spacing = longer ? s.spacing : length / intervals,
+          .spacing = stays || longer ? s.spacing : length / intervals,
           .sites = static_cast<std::size_t>(intervals) + (s.boundary.periodic ? 0 : 1)};
 }
 
