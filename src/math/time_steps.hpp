@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The one loop that chooses the length of an adaptive time step, for all integrators.
-/// How many time steps a run may take.
+/// Time steps of all integrators: the one loop that chooses the length of an adaptive step, and how many steps a run
+/// may take.
 
 #include <algorithm>
 #include <cmath>

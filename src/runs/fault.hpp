@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Turns a finite-fault model into a kinematic source. The program uses this file.
-/// A rupture on a plane that begins with the slip of a finite-fault model, and its comparison with the model.
+/// A finite-fault model as a kinematic source, and as the initial slip of a rupture on a plane, which is compared with
+/// the model.
 
 #include <string>
 #include <vector>

@@ -1,8 +1,6 @@
 #pragma once
 /// \file
-/// What this machine has for one process.
-/// Whether this is a build under AddressSanitizer.
-/// Wall time.
+/// What this machine has for one process, wall time, and whether this is a build under AddressSanitizer.
 
 #include <chrono>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Classes of ASCII characters, whatever the locale is.
-/// Makes text from files and users safe to show on a terminal.
+/// Characters and words, whatever the locale is: text from files and users that is safe to show on a terminal, the
+/// known name nearest to a mistyped one, and UTF-8 from Latin-1.
 
 #include <cstddef>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The averaged equations of star-shaped ruptures in space . With g = r_theta / r,
+/// The averaged equations of star-shaped ruptures in space. With g = r_theta / r,
 ///     r_t = U sqrt(1 + g^2)
 ///     Pi_t = (r p)_q - l H0 + T_theta + g T + r <1 - cos u> (a^2)_q + 2 pi r (F - <f>)
 ///     T = 2 pi J0 g cosh(phi) / sqrt(1 + g^2)

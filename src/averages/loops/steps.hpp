@@ -2,7 +2,7 @@
 /// \file
 /// Time steps of the averaged solver: half a step of friction, a step of the equations in space by the
 /// strong-stability-preserving Runge-Kutta method of third order, and half a step of friction.
-/// Slip, slip velocity, potency and energy of the loops.
+/// Also slip, slip velocity, potency and energy of the loops.
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// One side of the hypocentre, where a load holds the stress until the pulse comes. Private to src/events/finite_fault.
-/// The slip of a finite-fault model as the initial state of a rupture on a plane.
+/// The slip of a finite-fault model as the initial state of a rupture on a plane, and one side of its hypocentre, where
+/// a load holds the stress until the pulse comes.
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Divides a finite-fault model into columns along strike. Private to src/events/finite_fault.
-/// Several sources of one earthquake, and what to say where they disagree (docs/events.md).
+/// The columns of a finite-fault model along strike, and several sources of one earthquake, with what to say where they
+/// disagree (docs/events.md).
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The numbers of an event that are not quantities of the state of its fault, and the quantities of a population.
-/// Defines the columns of event results once, for files and for other languages (docs/events.md).
+/// The columns of event results, each defined once, for files and for other languages (docs/events.md): quantities of
+/// the state of a fault, other numbers of an event, and the quantities of a population.
 
 #include <functional>
 #include <optional>

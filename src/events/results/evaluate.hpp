@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Applies the theory to the entries of a file.
-/// Estimates the memory and the disk space that the events of a catalogue need.
-/// Stores, as bytes, the parts of a result that take time to compute, so that an interrupted catalogue can resume.
+/// Applies the theory to the entries of a file. Also estimates the memory and the disk space that the events of a
+/// catalogue need, and stores the parts of a result that take time to compute, so that an interrupted catalogue can
+/// resume.
 
 #include <cstddef>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Writes the parts of a file that the CF-1.10 conventions require and that all files of slipfront share.
-/// The variables of a result, as files and Python hold them.
+/// The variables of a result, as files and Python hold them, and the parts that the CF-1.10 conventions require of all
+/// files.
 
 #include <cstddef>
 #include <functional>

@@ -1,9 +1,8 @@
 #pragma once
 /// \file
 /// The file of a run: NetCDF-4 by the CF-1.10 conventions, with the state from which the run can resume.
-/// The variables of a run along a line over time and x, one line each. Those over time are output::scalars().
-/// What writing and reading the file of a run must agree on, besides its variables.
-/// The file of a comparison: NetCDF-4 by the CF-1.10 conventions, dimensions level, time and x.
+/// It has the variables of a run along a line over time and x, one line each; those over time are output::scalars().
+/// The file of a comparison has the dimensions level, time and x.
 
 #include <cstddef>
 #include <cstdio>

@@ -1,8 +1,7 @@
 #pragma once
 /// \file
-/// Writes a file completely or not at all.
-/// Reads and writes whole files.
-/// The output file of a run, and the file that holds an unfinished result.
+/// Reads and writes whole files. A file is written completely or not at all. Also the output file of a run, and the
+/// file that holds an unfinished result.
 
 #include <functional>
 #include <initializer_list>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Infers the state of a fault from the observations of an event, with the frictionless relations (Eqs. 8-10).
-/// The observations that the theory predicts, and what a repeated observation of the same fault would give.
+/// Also the observations that the theory predicts, and what a repeated observation of the same fault would give.
 
 #include <array>
 #include <optional>

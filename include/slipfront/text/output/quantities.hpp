@@ -4,9 +4,10 @@
 ///
 /// To add a number of a snapshot, add a member to Snapshot, its line to quantities.cpp, and set it where a run is
 /// observed (pulse/observe, chain/run_observer.cpp). If it follows from the rest of a snapshot at every level of
-/// theory, set it in complete(). Numbers of a whole run are declared in pulse/quantities.cpp and chain/quantities.cpp.
-/// Checks that a run makes of its own results: a list of the errors found, and the integral of a sampled velocity with
-/// an estimate of its error.
+/// theory, set it in complete(). Numbers of a whole run are declared in run.cpp of pulse, chain and plane.
+///
+/// Also the checks that a run makes of its own results: a list of the errors found, and the integral of a sampled
+/// velocity with an estimate of its error.
 
 #include <cmath>
 #include <span>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Writes a kinematic source and its static stress drop as grids, for those who model dynamic ruptures.
-/// Writes a kinematic source in the Standard Rupture Format, version 2.0 (Graves 2014).
+/// Writes a kinematic source and its static stress drop as grids, for those who model dynamic ruptures, and in the
+/// Standard Rupture Format, version 2.0 (Graves 2014).
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// NetCDF files of any content: what Python writes of sweeps and figures.
-/// Reads tables from separate files: initial profiles and friction laws.
+/// NetCDF files of any content, which Python writes of sweeps and figures, and tables from separate files: initial
+/// profiles and friction laws.
 
 #include <cstdint>
 #include <string>
