@@ -20,7 +20,7 @@ namespace {
 
 using namespace schemes;
 
-using Make = std::function<std::unique_ptr<Scheme>(const Start&, double h)>;
+using Make = std::function<std::unique_ptr<schemes::Scheme>(const Start&, double h)>;
 
 struct Entry {
   const char* name;
@@ -98,7 +98,7 @@ Exact at_rest(const Exact& u0, double C) {
 }
 
 /// Displacement averaged over a window of this width about x = 0, by interpolation between the sites.
-double mean_over(Scheme& s, double width) {
+double mean_over(schemes::Scheme& s, double width) {
   const auto u = s.u();
   const double h = s.x[1] - s.x[0];
   const auto at = [&](double y) {
@@ -120,7 +120,7 @@ double mean_over(Scheme& s, double width) {
 }
 
 /// Displacement averaged over one spacing of the train about x = 0, at 64 times, less that at t = 0.
-std::vector<double> history(Scheme& s, double per, double end, double width, double* seconds) {
+std::vector<double> history(schemes::Scheme& s, double per, double end, double width, double* seconds) {
   std::vector<double> out;
   const auto mean = [&] { return mean_over(s, width); };
   const double first = mean();
