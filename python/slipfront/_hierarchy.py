@@ -140,7 +140,7 @@ def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smalles
     progress : callable, optional
         Called with (steps done, all steps).
     columns : path or dict, optional
-        What the columns of a table mean, as in `event`.
+        Meaning of the columns of a table, as in `event`.
 
     Returns
     -------

@@ -207,7 +207,7 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
     output : path, optional
         NetCDF file to write.
     columns : path or dict, optional
-        What the columns of the table mean: the map of `slipfront.event`, with the quantities shear_stress, shear_stress_after, normal_stress,
+        Meaning of the columns of the table: the map of `slipfront.event`, with the quantities shear_stress, shear_stress_after, normal_stress,
         rupture_velocity and stress_drop.
     normal_stress : str or float, optional
         Normal stress of fronts for which the table has none, such as "2 MPa" or a number in Pa.

@@ -92,14 +92,6 @@ namespace {
 
 constexpr double tail = 1e-4;  ///< fraction of the largest initial slip that counts as none
 
-void check(const Problem& p) {
-  if (p.friction.changes_contacts())
-    throw InputError({.key = "friction",
-                      .value = std::string(p.friction.name()),
-                      .problem = "on a plane, friction cannot change contacts or pores",
-                      .allowed = "a law without these effects"});
-}
-
 Cells cells_of(const Problem& p, int cells) {
   const double width = p.right - p.left, height = p.top - p.bottom;
   constexpr int fewest = 8;
@@ -291,7 +283,7 @@ class GridSolver : public Solver {
 }  // namespace
 
 std::unique_ptr<Solver> grid_solver(const Problem& problem, int cells) {
-  check(problem);
+  require_steady_contacts(problem);
   return std::make_unique<GridSolver>(problem, cells);
 }
 

@@ -3,17 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "lattice/plane/budget.hpp"
 #include "math/constants.hpp"
 #include "math/digits.hpp"
 #include "math/time_steps.hpp"
+#include "slipfront/error.hpp"
 #include "slipfront/lattice/plane/quantities.hpp"
 #include "slipfront/lattice/plane/source_parameters.hpp"
 #include "system/archive.hpp"
 
 namespace slipfront::plane {
+
+void require_steady_contacts(const Problem& problem) {
+  if (problem.friction.changes_contacts())
+    throw InputError({.key = "friction",
+                      .value = std::string(problem.friction.name()),
+                      .problem = "on a plane, friction cannot change contacts or pores",
+                      .allowed = "a law without these effects"});
+}
 
 double memory_of_results(const Schedule& schedule) {
   // A snapshot has slip and slip velocity. The maps are those of the file and of the saved state.

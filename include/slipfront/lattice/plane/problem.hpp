@@ -123,4 +123,7 @@ class Solver {
   virtual void archive(Archive& a) = 0;
 };
 
+/// \throws InputError for friction that changes contacts or pores.
+void require_steady_contacts(const Problem& problem);
+
 }  // namespace slipfront::plane

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the runs of all solvers offer.
+/// The interface of the runs of all solvers.
 
 #include <functional>
 #include <string>

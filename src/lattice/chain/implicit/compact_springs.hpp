@@ -68,6 +68,7 @@ class CompactSprings {
   }
   /// The substrate's part of (u_tt + S + f - F) at a site that is held.
   double held_force(std::size_t site) const { return at_left_end(site) ? left_force_ : right_force_; }
+  bool holds_an_end() const { return !given_.empty(); }
   /// The force on a site if the held ends are driven by these forces.
   double drive(std::size_t site, double at_left, double at_right) const {
     return (by_left_.empty() ? 0 : by_left_[site] * at_left) + (by_right_.empty() ? 0 : by_right_[site] * at_right);

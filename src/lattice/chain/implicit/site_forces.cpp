@@ -46,7 +46,7 @@ double SiteForces::forcing(const ChainState& m, std::size_t j) const {
 
 SiteForces::Drives SiteForces::drives_of_ends(double time) const {
   const Problem& p = problem_;
-  if (p.friction.steep_at_rest()) return {};
+  if (!springs_.holds_an_end() || p.friction.steep_at_rest()) return {};
   const double pulled = p.loading.where == Pulled::everywhere ? p.loading.stiffness * p.loading.velocity * time : 0;
   const auto at = [&](double x) { return (p.forcing ? p.forcing(x, time) : 0) + pulled; };
   return {at(p.grid.x(0)), at(p.grid.x(p.grid.sites - 1))};

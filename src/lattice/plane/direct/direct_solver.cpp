@@ -19,14 +19,6 @@ namespace {
 
 using std::numbers::pi;
 
-void check(const Problem& p) {
-  if (p.friction.changes_contacts())
-    throw InputError({.key = "friction",
-                      .value = std::string(p.friction.name()),
-                      .problem = "on a plane, friction cannot change contacts or pores",
-                      .allowed = "a law without these effects"});
-}
-
 /// The sites of one direction in a stretch of it, [first, last).
 struct Range {
   std::size_t first, last;
@@ -314,7 +306,7 @@ double largest_unbalanced_force(const Problem& problem, const DirectOptions& opt
 }
 
 std::unique_ptr<Solver> direct_solver(const Problem& problem, const DirectOptions& options) {
-  check(problem);
+  require_steady_contacts(problem);
   return std::make_unique<DirectSolver>(problem, options);
 }
 

@@ -97,6 +97,17 @@ void Stepper::for_each_acceleration(const std::vector<double>& u, const Each& ea
   });
 }
 
+/// The second rate of v of a row, v_xx + v_yy - a^2 v cos u: v_tt of the acceleration v at rest, u_ttt of the velocity
+/// v = u_t.
+std::vector<double> Stepper::rates_of_change(const std::vector<double>& v, std::size_t j,
+                                             const Acceleration& now) const {
+  std::vector<double> rates(sites_.nx);
+  const auto row = static_cast<std::ptrdiff_t>(j);
+  laplacian(shape_, rows_around(v, sites_, row), rates.data());
+  add_substrate_rate(sites_.nx, &v[sites_.at(0, j)], nullptr, now, row_of(sites_.moves, sites_, row), rates.data());
+  return rates;
+}
+
 /// u_xx + u_yy - a^2 sin u + F of all sites.
 std::vector<double> Stepper::accelerations(const std::vector<double>& u) const {
   std::vector<double> v(sites_.size(), 0.0);
@@ -209,10 +220,7 @@ Motion Stepper::start(std::vector<double> u) {
   const double dt2 = dt_ * dt_;
   for_each_acceleration(u, [&](std::size_t j, const Acceleration& now) {
     const std::size_t first = sites_.at(0, j);
-    std::vector<double> v_tt(sites_.nx);
-    const auto row = static_cast<std::ptrdiff_t>(j);
-    laplacian(shape_, rows_around(v, sites_, row), v_tt.data());
-    add_substrate_rate(sites_.nx, &v[first], nullptr, now, row_of(sites_.moves, sites_, row), v_tt.data());
+    const std::vector<double> v_tt = rates_of_change(v, j, now);
     for (std::size_t i = 0; i < sites_.nx; ++i) {
       m.old[first + i] = u[first + i] + dt2 / 2 * (v[first + i] + dt2 / 12 * v_tt[i]);
       if (!m.v_old.empty()) m.v_old[first + i] += dt2 / 2 * v_tt[i];  // so that v_t = 0
@@ -258,10 +266,7 @@ void Stepper::find_velocity(const std::vector<double>& u, const std::vector<doub
   fill_ghosts(central);
   for_each_acceleration(u, [&](std::size_t j, const Acceleration& now) {
     const std::size_t first = sites_.at(0, j);
-    std::vector<double> third(sites_.nx);
-    const auto row = static_cast<std::ptrdiff_t>(j);
-    laplacian(shape_, rows_around(central, sites_, row), third.data());
-    add_substrate_rate(sites_.nx, &central[first], nullptr, now, row_of(sites_.moves, sites_, row), third.data());
+    const std::vector<double> third = rates_of_change(central, j, now);
     for (std::size_t i = 0; i < sites_.nx; ++i) velocity[first + i] = central[first + i] - dt_ * dt_ / 6 * third[i];
   });
 }

@@ -67,6 +67,7 @@ class Stepper {
            double* after);
   void fill_ends(double* row) const;
   std::ptrdiff_t inside(std::ptrdiff_t row) const;
+  std::vector<double> rates_of_change(const std::vector<double>& v, std::size_t row, const Acceleration& now) const;
   std::vector<double> accelerations(const std::vector<double>& u) const;
   void find_velocity(const std::vector<double>& u, const std::vector<double>& before, const std::vector<double>& after,
                      std::vector<double>& velocity) const;
