@@ -62,7 +62,6 @@ std::string made(FuzzedDataProvider& data) {
   if (events) text("seed", "1");
   text("scenario", "title = \"a\"");
   text("version", "1");
-  text("checksum", "0");
   if (usual()) file.attribute(Writer::global, "finished", usual() ? 1 : data.ConsumeIntegral<int>());
   const auto size = [&]() -> std::size_t { return data.ConsumeIntegralInRange<std::size_t>(0, usual() ? 5 : 500); };
   const std::vector<std::size_t> sizes = {size(), size(), size()};

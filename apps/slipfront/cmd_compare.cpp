@@ -22,16 +22,17 @@ struct CompareArguments : ScenarioArguments {
 };
 
 void describe(const scenario::Scenario& s, const run::Comparison& c, const std::string& output) {
-  const scenario::Estimate need = scenario::estimate_of(s, c.chains);
-  record::require_disk_space(record::Output(output, "").finished(), need.disk);
+  record::require_disk_space(record::Output(output, "").finished(), c.need.disk);
   run::begin_levels(c);
   std::string text = fmt::format("{}: OK. The comparison would run {}pulse (consistent, paper)",
                                  s.title.empty() ? s.file : s.title, c.exact ? "the closed form, " : "");
-  for (const auto& chain : c.chains)
-    text += fmt::format(", chain at scale {:.6g} ({} sites)", chain.scale, chain::problem_of(chain).grid.sites);
-  put(fitted(text + fmt::format(" over x = {} ... {} to t = {}, {}.", s.in_results(c.problem.left, "b / A"),
-                                s.in_results(c.problem.right, "b / A"), s.in_results(s.end, "b / (c A)"),
-                                in_words(need))));
+  for (const run::Plan& plan : c.plans)
+    if (plan.solver == scenario::SolverKind::chain)
+      text +=
+          fmt::format(", chain at scale {:.6g} ({} sites)", plan.chain.scale, chain::problem_of(plan.chain).grid.sites);
+  put(fitted(text + fmt::format(" over x = {} ... {} to t = {}, {}.", s.in_results(c.schedule.x_edges.front(), "b / A"),
+                                s.in_results(c.schedule.x_edges.back(), "b / A"), s.in_results(s.end, "b / (c A)"),
+                                in_words(c.need))));
 }
 
 int run_compare(const CompareArguments& a) {
@@ -42,13 +43,14 @@ int run_compare(const CompareArguments& a) {
     return exit_done;
   }
   const record::Output output(a.output, "");
-  record::require_disk_space(a.output, scenario::estimate_of(s, comparison.chains).disk);
+  record::require_disk_space(a.output, comparison.need.disk);
   if (output.wanted()) interrupted_means("; the finished levels are in " + output.unfinished(), output.unfinished());
   const WatchInterrupts watch;
   std::vector<run::ComparedModel> levels;
   std::optional<Progress> progress;
   const bool reached = run::compare(
-      s, comparison, a.scales, output, a.common.threads, levels, [&] { progress.reset(); },
+      comparison, run::metadata_of(s, record::comparison_format, "compare", a.scales), output, a.common.threads, levels,
+      [&] { progress.reset(); },
       [&](const std::string& level, double time, long steps) {
         if (!progress) progress.emplace(s.end, !a.common.quiet, level, progress_words(s));
         progress->at(time, steps);

@@ -29,8 +29,8 @@ double last(const run::ComparedModel& level, const Scalar& number, const Compare
 
 /// The numbers that describe a level.
 std::vector<std::pair<Description, std::optional<double>>> settings_of(const run::ComparedModel& level) {
-  return {{output::slip_window, level.window},
-          {output::velocity_window, level.smooth_window},
+  return {{output::slip_window, level.number(output::slip_window)},
+          {output::velocity_window, level.number(output::velocity_window)},
           {output::wall_time, level.wall_seconds}};
 }
 

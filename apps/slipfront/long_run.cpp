@@ -359,7 +359,7 @@ int plan_and_run(const ScenarioArguments& a, Clock::time_point begun, const std:
   std::vector<std::string> warnings = result.metadata.warnings;
   if (result.add_errors)
     for (std::string& warning : result.add_errors(result.summary, {})) warnings.push_back(std::move(warning));
-  const bool has_events = plan.solver == scenario::SolverKind::chain && s.loading.acts();
-  if (first) print_summary(s, result.summary, warnings, a, has_events ? &result.metadata.events : nullptr);
+  const std::vector<output::SlipEvent> events = result.events ? result.events() : std::vector<output::SlipEvent>{};
+  if (first) print_summary(s, result.summary, warnings, a, result.events ? &events : nullptr);
   return exit_done;
 }

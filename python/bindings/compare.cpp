@@ -45,15 +45,13 @@ py::list level_rows(const std::vector<ComparedModel>& levels) {
 
 /// The variables that describe levels: (description, one value for each level).
 py::list numbers_of_levels(const std::vector<ComparedModel>& levels) {
-  const auto column = [&](const Description& about, std::optional<double> ComparedModel::*value) {
-    std::vector<double> values;
-    for (const ComparedModel& level : levels) values.push_back((level.*value).value_or(none));
-    return py::make_tuple(described(about),
-                          py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data()));
-  };
   py::list columns;
-  columns.append(column(output::slip_window, &ComparedModel::window));
-  columns.append(column(output::velocity_window, &ComparedModel::smooth_window));
+  for (const Description& about : {output::slip_window, output::velocity_window}) {
+    std::vector<double> values;
+    for (const ComparedModel& level : levels) values.push_back(level.number(about).value_or(none));
+    columns.append(
+        py::make_tuple(described(about), py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data())));
+  }
   return columns;
 }
 
@@ -68,18 +66,15 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   {
     const py::gil_scoped_release others_may_run;
     comparison = run::comparison_of(s, scales);
-    metadata = run::metadata_of(s, "compare", comparison.schedule.x_edges, scales);
+    metadata = run::metadata_of(s, record::comparison_format, "compare", scales);
     const record::Output output(a.output, "");
-    record::require_disk_space(a.output, scenario::estimate_of(s, comparison.chains).disk);
+    record::require_disk_space(a.output, comparison.need.disk);
     reached = run::compare(
-        s, comparison, scales, output, threads, levels, [] {},
+        comparison, metadata, output, threads, levels, [] {},
         [&](const std::string& level, double time, long steps) { return watch(time, steps, level); });
   }
   watch.finish();
-  record::Levels series;
-  for (const ComparedModel& level : levels) series.push_back(&level.snapshots);
-  py::dict result = dataset_of(metadata, record::comparison_format, reached,
-                               record::arrays_of(metadata, comparison.schedule.times, series));
+  py::dict result = dataset_of(metadata, reached, run::arrays_of(comparison, metadata, levels));
   result["levels"] = level_rows(levels);
   result["level_numbers"] = numbers_of_levels(levels);
   result["scale_about"] = described(output::scale_factor);
@@ -96,11 +91,11 @@ py::dict check_compare(const py::dict& arguments, const std::vector<double>& sca
   const run::Comparison c = run::comparison_of(s, scales);
   run::begin_levels(c);
   std::vector<double> chains;
-  for (const auto& chain : c.chains) chains.push_back(chain.scale);
-  const scenario::Estimate need = scenario::estimate_of(s, c.chains);
+  for (const run::Plan& plan : c.plans)
+    if (plan.solver == scenario::SolverKind::chain) chains.push_back(plan.chain.scale);
   return py::dict("title"_a = s.title, "levels"_a = c.levels(), "closed_form"_a = c.exact.has_value(),
-                  "scales"_a = chains, "left"_a = c.problem.left, "right"_a = c.problem.right, "end"_a = s.end,
-                  "memory_bytes"_a = need.memory_with_file(), "disk_bytes"_a = need.disk);
+                  "scales"_a = chains, "left"_a = c.schedule.x_edges.front(), "right"_a = c.schedule.x_edges.back(),
+                  "end"_a = s.end, "memory_bytes"_a = c.need.memory_with_file(), "disk_bytes"_a = c.need.disk);
 }
 
 }  // namespace

@@ -51,9 +51,9 @@ scenario::Scenario scenario_of(const RunRequest& request) {
 
 namespace {
 
-py::dict attributes_of(const record::RunMetadata& metadata, const std::string& format, bool finished) {
+py::dict attributes_of(const record::RunMetadata& metadata, bool finished) {
   py::dict attributes;
-  for (const auto& [name, value] : record::file_attributes(metadata, format))
+  for (const auto& [name, value] : record::file_attributes(metadata))
     attributes[py::str(name)] = py::str(py::bytes(value).attr("decode")("utf-8", "replace"));
   attributes["finished"] = finished ? 1 : 0;
   return attributes;
@@ -61,8 +61,7 @@ py::dict attributes_of(const record::RunMetadata& metadata, const std::string& f
 
 }  // namespace
 
-py::dict dataset_of(const record::RunMetadata& metadata, const std::string& format, bool finished,
-                    const std::vector<record::Array>& arrays) {
+py::dict dataset_of(const record::RunMetadata& metadata, bool finished, const std::vector<record::Array>& arrays) {
   py::list variables;
   py::dict units;
   for (const record::Array& array : arrays) {
@@ -80,7 +79,7 @@ py::dict dataset_of(const record::RunMetadata& metadata, const std::string& form
                                     py::array_t<double>(shape, array.values().data()), further));
   }
   py::dict result;
-  result["attributes"] = attributes_of(metadata, format, finished);
+  result["attributes"] = attributes_of(metadata, finished);
   result["variables"] = variables;
   result["warnings"] = py::cast(metadata.warnings);
   result["units"] = units;

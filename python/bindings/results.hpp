@@ -32,7 +32,7 @@ py::object time_unit_of(const slipfront::scenario::Scenario& scenario);
 /// Returns a dict {attributes, variables, warnings, units} for the Python part. Each variable is a tuple of
 /// description, dimensions, array and further attributes. The warnings are those of the metadata. The arrays are in the
 /// units of the model. If results are to be in SI units, `units` has the value of each of them.
-py::dict dataset_of(const slipfront::record::RunMetadata& metadata, const std::string& format, bool finished,
+py::dict dataset_of(const slipfront::record::RunMetadata& metadata, bool finished,
                     const std::vector<slipfront::record::Array>& arrays);
 
 /// Adds `summary`, {name: value} of each row, and `errors`, {name: error} of each row whose error is known. They are in

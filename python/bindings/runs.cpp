@@ -38,8 +38,7 @@ py::dict run_planned(const RunRequest& a, double end, bool with_errors, int thre
         result.metadata.warnings.push_back(std::move(warning));
   }
   watch.finish();
-  py::dict data = dataset_of(result.metadata, plan.is_on_plane() ? record::plane_format : record::pulse_format,
-                             result.finished(), result.arrays(result.metadata));
+  py::dict data = dataset_of(result.metadata, result.finished(), result.arrays());
   add_rows(data, result.summary, result.metadata.units);
   if (plan.model && result.finished() && !plan.model->fault.note.empty())
     data["warnings"].cast<py::list>().append(plan.model->fault.note);

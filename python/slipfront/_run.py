@@ -375,7 +375,7 @@ def read(name, any_file=False, group=None, si=None):
     if data.attrs.get("slipfront_format") == "sweep 1":  # its dimensions have dots, as in friction.coefficient
         names = {name: name.replace(".", "_") for name in data.dims}
         data = data.drop_vars([new for old, new in names.items() if new != old], errors="ignore").rename(names)
-    data.attrs = {name: value.item() if isinstance(value, np.generic) else value for name, value in data.attrs.items() if name != "checksum"}
+    data.attrs = {name: value.item() if isinstance(value, np.generic) else value for name, value in data.attrs.items()}
     if data.attrs.get("finished") == 1 and data.sizes.get("time"):
         data = data.assign_attrs(_summary(data))
     if "name" in data.coords and data["name"].dtype.kind == "S":

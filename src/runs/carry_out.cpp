@@ -53,8 +53,8 @@ class Checkpoints {
     if (run.finished()) add_warnings(run.warnings(), metadata);  // warnings() needs all ranks
     on_first([&] {
       const record::Output& output = options_.output;
-      if (result_.describe) result_.describe(metadata);
-      result_.write(run.finished() ? output.finished() : output.unfinished(), metadata, state);
+      record::write_run(run.finished() ? output.finished() : output.unfinished(), metadata, result_.arrays(), state,
+                        run.finished());
       if (run.finished()) output.clear();
     });
     cost_ = seconds_since(begun);
@@ -115,7 +115,6 @@ Result carry_out(const Plan& plan, const Options& options) {
   const auto begun = Clock::now();
   const bool reached = go(result, options, plan.need.disk);
   const double stepping = seconds_since(begun);
-  if (result.describe) result.describe(result.metadata);
   if (!reached) return result;
   add_warnings(result.run->warnings(), result.metadata);  // asks all ranks
   add_warnings(notes_on_results(plan), result.metadata);

@@ -11,9 +11,7 @@
 #include "math/digits.hpp"
 #include "math/roots.hpp"
 #include "scenario/estimate.hpp"
-#include "scenario/solver_errors.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/scenario/problem.hpp"
 #include "slipfront/text/output/quantities.hpp"
 #include "slipfront/theory/rupture/riemann_trains.hpp"
 #include "slipfront/theory/train.hpp"
@@ -36,83 +34,98 @@ std::vector<double> checked(std::vector<double> scales, const scenario::Scenario
   return scales;
 }
 
-/// The closures of the pulse levels.
-std::vector<friction::Closure> closures_of(const Comparison& c) {
-  std::vector<friction::Closure> closures{friction::Closure::consistent};
-  if (c.problem.friction.defined_by(friction::Closure::paper)) closures.push_back(friction::Closure::paper);
-  return closures;
+ComparedModel level_of(const Plan& plan) {
+  if (plan.solver == scenario::SolverKind::chain)
+    return {.name = "chain-" + digits(plan.chain.scale), .scale = plan.chain.scale};
+  const char* const closure = name_of(plan.pulse.friction.closure());
+  return {.name = std::string("pulse-") + closure, .closure = closure};
 }
 
-pulse::Run pulse_of(const Comparison& c, friction::Closure closure) {
-  pulse::Problem problem = c.problem;
-  problem.friction = problem.friction.with(closure);
-  return scenario::with_keys(scenario::SolverKind::pulse, c.file,
-                             [&] { return pulse::Run(std::move(problem), c.schedule); });
-}
-
-chain::Run chain_of(const Comparison& c, const chain::ScaledProblem& scaled, int threads) {
-  return scenario::with_keys(scenario::SolverKind::chain, c.file,
-                             [&] { return chain::Run(scaled, c.schedule, {.threads = threads}); });
+std::vector<record::Level> levels_of(const std::vector<ComparedModel>& models) {
+  std::vector<record::Level> levels;
+  levels.reserve(models.size());
+  for (const ComparedModel& model : models)
+    levels.push_back({model.name, model.scale.value_or(none), &model.snapshots});
+  return levels;
 }
 
 /// Runs one level to its end; false if stopped.
-template <class Run>
-bool carry(Run& run, ComparedModel& level, const std::function<bool()>& after_step) {
+bool carry(const Plan& plan, int threads, ComparedModel& level,
+           const std::function<bool(double time, long steps)>& after_step) {
   const auto begun = Clock::now();
+  const Result result = begin(plan, {.threads = threads});
+  output::Run& run = *result.run;
   bool reached = false;
   try {
-    reached = run.go(after_step);
+    reached = run.go([&] { return after_step(run.time(), run.steps()); });
   } catch (const NumericsError& error) {
     throw NumericsError(level.name + ": " + error.what());
   }
   level.wall_seconds = seconds_since(begun);
-  level.snapshots = run.snapshots();
+  level.snapshots = result.snapshots();
   level.warnings = run.warnings();
+  if (reached) level.numbers = result.numbers({});
   return reached;
 }
 
 }  // namespace
 
-Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales) {
-  Comparison c{.file = scenario.file};
-  c.problem = scenario::pulse_problem(scenario);
-  c.schedule = scenario::pulse_schedule(scenario, c.problem);
-  for (const double scale : checked(std::move(scales), scenario)) {
-    scenario.chain.scale = scale;
-    c.chains.push_back(scenario::chain_problem(scenario));
-    scenario::with_keys(scenario::SolverKind::chain, scenario.file, [&] { return chain::problem_of(c.chains.back()); });
+std::optional<double> ComparedModel::number(const Description& about) const {
+  for (const Row& row : numbers)
+    if (row.about.name == about.name) return row.number();
+  return {};
+}
+
+Comparison comparison_of(const scenario::Scenario& scenario, std::vector<double> scales) {
+  Comparison c;
+  std::vector<chain::ScaledProblem> chains;
+  for (const friction::Closure closure : {friction::Closure::consistent, friction::Closure::paper}) {
+    if (!scenario.friction.defined_by(closure)) continue;
+    scenario::Scenario with_closure = scenario;
+    with_closure.friction = scenario.friction.with(closure);
+    c.plans.push_back(plan_of(scenario::SolverKind::pulse, std::move(with_closure)));
   }
-  scenario::require_memory(scenario, c.chains);  // before the closed form, which is observed at once
+  c.schedule = c.plans.front().on_line;
+  for (const double scale : checked(std::move(scales), scenario)) {
+    scenario::Scenario scaled = scenario;
+    scaled.chain.scale = scale;
+    c.plans.push_back(plan_of(scenario::SolverKind::chain, std::move(scaled)));
+    chains.push_back(c.plans.back().chain);
+  }
+  scenario::require_memory(scenario, chains);  // before the closed form, which is observed at once
+  c.need = scenario::estimate_of(scenario, chains);
   c.exact = closed_form(scenario, c.schedule);
   return c;
 }
 
 void begin_levels(const Comparison& c) {
-  for (const friction::Closure closure : closures_of(c)) pulse_of(c, closure);
-  for (const chain::ScaledProblem& scaled : c.chains) chain_of(c, scaled, 1);
+  for (const Plan& plan : c.plans) begin(plan, {});
 }
 
-bool run_levels(const Comparison& c, int threads, std::vector<ComparedModel>& levels, const std::function<void()>& next,
-                const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
+std::vector<record::Array> arrays_of(const Comparison& c, const record::RunMetadata& metadata,
+                                     const std::vector<ComparedModel>& levels) {
+  return record::arrays_of(c.schedule, metadata.variables, levels_of(levels));
+}
+
+bool compare(const Comparison& c, const record::RunMetadata& metadata, const record::Output& output, int threads,
+             std::vector<ComparedModel>& levels, const std::function<void()>& next,
+             const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
+  const auto write = [&](bool finished) {
+    if (!output.wanted()) return;
+    record::write_comparison(finished ? output.finished() : output.unfinished(), metadata,
+                             arrays_of(c, metadata, levels), levels_of(levels), finished);
+    if (finished) output.clear();
+  };
   if (c.exact) levels.push_back(*c.exact);
-  for (const friction::Closure closure : closures_of(c)) {
+  for (const Plan& plan : c.plans) {
     next();
-    const char* name = name_of(closure);
-    ComparedModel level{.name = std::string("pulse-") + name, .closure = name};
-    pulse::Run run = pulse_of(c, closure);
-    const auto after = [&] { return after_step(level.name, run.time(), run.steps()); };
-    if (!carry(run, level, after)) return false;
+    write(false);
+    ComparedModel level = level_of(plan);
+    const auto after = [&](double time, long steps) { return after_step(level.name, time, steps); };
+    if (!carry(plan, threads, level, after)) return write(false), false;
     levels.push_back(std::move(level));
   }
-  for (const chain::ScaledProblem& scaled : c.chains) {
-    next();
-    ComparedModel level{.name = "chain-" + digits(scaled.scale), .scale = scaled.scale};
-    chain::Run run = chain_of(c, scaled, threads);
-    level.window = run.window();
-    if (!carry(run, level, [&] { return after_step(level.name, run.time(), run.chain().steps()); })) return false;
-    level.smooth_window = run.averages().width;
-    levels.push_back(std::move(level));
-  }
+  write(true);
   return true;
 }
 

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/averages/pulse/run.hpp"
-#include "slipfront/lattice/chain/run.hpp"
+#include "runs/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 #include "slipfront/text/output/quantities.hpp"
 
@@ -21,38 +20,42 @@ namespace slipfront::run {
 struct ComparedModel {
   std::string name;  ///< "closed-form", "pulse-consistent", "pulse-paper", "chain-1000"
   std::string closure = {};
-  std::optional<double> scale = {};          ///< only for a chain
-  std::optional<double> window = {};         ///< only for a chain: averaging window of the slip at x = 0
-  std::optional<double> smooth_window = {};  ///< only for a chain: averaging window of velocities and stresses
+  std::optional<double> scale = {};  ///< only for a chain
   std::vector<output::Snapshot> snapshots = {};
+  std::vector<Row> numbers = {};           ///< those of its run; empty for the closed form
   std::vector<std::string> warnings = {};  ///< warnings of the run, one sentence each
   double wall_seconds = 0;
+
+  std::optional<double> number(const Description& about) const;  ///< absent unless its run has this number
 };
 
-/// The checked problems of all levels.
+/// The checked plans of all levels.
 struct Comparison {
-  std::string file;  ///< file of the scenario
-  pulse::Problem problem = {};
   output::Schedule schedule = {};
   std::optional<ComparedModel> exact = {};  ///< the closed form, if there is one
-  std::vector<chain::ScaledProblem> chains = {};
-  std::size_t levels() const { return chains.size() + (exact ? 3 : 2); }
+  std::vector<Plan> plans = {};             ///< the pulse with each closure, then the chains
+  scenario::Estimate need = {};
+  std::size_t levels() const { return plans.size() + (exact ? 1 : 0); }
 };
 
-/// Sets up all levels and checks them before any run. `scales` are those of the chains; if they are empty, they are the
+/// Plans all levels and checks them before any run. `scales` are those of the chains; if they are empty, they are the
 /// scale of the scenario, or 100, 300 and 1000. \throws InputError for an error in any level, and for a scale that is
 /// not > 0 or given twice.
-Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales);
+Comparison comparison_of(const scenario::Scenario& scenario, std::vector<double> scales);
 
 /// Begins each level and takes no step, to find what a run refuses at its start. \throws InputError like a run.
 void begin_levels(const Comparison& comparison);
 
-/// Runs the levels in order and appends each to `levels` when it is finished. It calls `next` before each run.
-/// `after_step` (level, its time, its number of steps) may stop all runs by returning true. Returns whether the end was
-/// reached. \throws NumericsError that names the level.
-bool run_levels(const Comparison& comparison, int threads, std::vector<ComparedModel>& levels,
-                const std::function<void()>& next,
-                const std::function<bool(const std::string& level, double time, long steps)>& after_step);
+/// The variables of the file of a comparison. They refer to the levels.
+std::vector<record::Array> arrays_of(const Comparison& comparison, const record::RunMetadata& metadata,
+                                     const std::vector<ComparedModel>& levels);
+
+/// Runs the levels in order, appends each to `levels` when it is finished, and writes them. It calls `next` before each
+/// run. `after_step` (level, its time, its number of steps) may stop all runs by returning true. Returns whether all
+/// levels are finished. \throws NumericsError that names the level, FileError.
+bool compare(const Comparison& comparison, const record::RunMetadata& metadata, const record::Output& output,
+             int threads, std::vector<ComparedModel>& levels, const std::function<void()>& next,
+             const std::function<bool(const std::string& level, double time, long steps)>& after_step);
 
 /// The closed form on the output grid: the exact solution of the Riemann problem (Eqs. 8-10 if the right side is
 /// empty). There is none with friction, forcing or a contact profile, without a step, or if waves reach an end of the

@@ -114,8 +114,7 @@ record::Output output_of(const std::string& output, const std::string& resume, b
 
 record::Checkpoint checkpoint_of(const std::string& path, const Plan& plan) {
   const scenario::Scenario& scenario = plan.scenario;
-  record::Checkpoint saved =
-      record::read_checkpoint(path, plan.is_on_plane() ? record::plane_format : record::pulse_format);
+  record::Checkpoint saved = record::read_checkpoint(path, plan.format());
   if (saved.version != SLIPFRONT_VERSION)
     throw InputError({.file = path,
                       .key = "resume",

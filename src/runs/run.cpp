@@ -32,22 +32,21 @@ void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si) {
     scenario.warnings.push_back("SI units were converted with " + assumed + ", which [medium] does not give");
 }
 
-record::RunMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
-                                const std::vector<double>& x_edges, const std::vector<double>& scales) {
+record::RunMetadata metadata_of(const scenario::Scenario& scenario, const char* format, const std::string& command,
+                                const std::vector<double>& scales) {
   std::vector<std::string> variables = scenario.output.variables;
   if (!scenario.pulse.many_trains || command != "pulse")
     std::erase(variables, "trains");
   else if (variables.empty())
     variables = record::pulse_variables();
   // The history is that of the run, not of how it was interrupted and resumed: equal runs make equal files.
-  return {.title = scenario.title,
+  return {.format = format,
+          .title = scenario.title,
           .scenario_text = scenario.text,
           .version = SLIPFRONT_VERSION,
           .command_line = scenario::command_line(scenario, command, scales),
-          .x_edges = x_edges,
           .variables = std::move(variables),
           .warnings = scenario.warnings,
-          .pulled_end = scenario.loading.acts() && scenario.loading.where != chain::Pulled::everywhere,
           .units = scenario.results_in};
 }
 
@@ -69,33 +68,32 @@ void plan_line(Plan& plan) {
   plan.need = scenario::estimate_of(s, plan.chain);
 }
 
-/// A run from its beginning, or from where the checkpoint left it with these `snapshots`.
-template <class Run, class Snapshots, class... Arguments>
-std::unique_ptr<Run> begun(const Options& options, Snapshots record::Checkpoint::*snapshots, Arguments&&... arguments) {
-  if (!options.checkpoint) return std::make_unique<Run>(std::forward<Arguments>(arguments)...);
-  const record::Checkpoint& saved = *options.checkpoint;
-  return std::make_unique<Run>(std::forward<Arguments>(arguments)..., saved.solver_state, saved.*snapshots);
+/// A run from its beginning, or from where the checkpoint left it with these `snapshots`. Its numbers and arrays.
+template <class Run, class Snapshots, class... Problem>
+Result begun(const Plan& plan, const Options& options, const char* command, Snapshots record::Checkpoint::*snapshots,
+             Problem&&... problem) {
+  std::unique_ptr<Run> owned;
+  if (const auto& saved = options.checkpoint)
+    owned = std::make_unique<Run>(std::forward<Problem>(problem)..., saved->solver_state, (*saved).*snapshots);
+  else
+    owned = std::make_unique<Run>(std::forward<Problem>(problem)...);
+  const Run& run = *owned;
+  Result result{.run = std::move(owned), .metadata = metadata_of(plan.scenario, plan.format(), command)};
+  result.arrays = [&run, variables = result.metadata.variables] { return record::arrays_of(run, variables); };
+  result.numbers = [&run](const output::Spent& spent) { return rows_of(run, spent); };
+  return result;
 }
 
-/// The part of a result that is equal for all runs along a line.
+/// The run of a result that was begun as one of this kind.
 template <class Run>
-Result on_line(std::unique_ptr<Run> owned, const Plan& plan, const char* command) {
-  const Run& run = *owned;
-  return {
-      .run = std::move(owned),
-      .metadata = metadata_of(plan.scenario, command, plan.on_line.x_edges),
-      .arrays = [&run](const record::RunMetadata& metadata) { return record::arrays_of(metadata, run.snapshots()); },
-      .write =
-          [&run](const std::string& path, const record::RunMetadata& metadata, const std::string& state) {
-            record::write_pulse(path, metadata, run.snapshots(), state, run.finished());
-          }};
+const Run& the(const Result& result) {
+  return static_cast<const Run&>(*result.run);
 }
 
 Result begin_pulse(const Plan& plan, const Options& options) {
-  auto owned = begun<pulse::Run>(options, &record::Checkpoint::snapshots, plan.pulse, plan.on_line);
-  const pulse::Run& run = *owned;
-  Result result = on_line(std::move(owned), plan, "pulse");
-  result.numbers = [&run](const output::Spent& spent) { return rows_of({run, spent.wall}); };
+  Result result = begun<pulse::Run>(plan, options, "pulse", &record::Checkpoint::snapshots, plan.pulse, plan.on_line);
+  const pulse::Run& run = the<pulse::Run>(result);
+  result.snapshots = [&run]() -> auto& { return run.snapshots(); };
   result.add_errors = [&run, &plan](std::vector<Row>& summary, const std::function<bool()>& interrupted) {
     return add_pulse_errors(run, summary, plan, interrupted);
   };
@@ -104,40 +102,26 @@ Result begin_pulse(const Plan& plan, const Options& options) {
 
 Result begin_chain(const Plan& plan, const Options& options) {
   const chain::Execution execution{.threads = options.threads, .ranks = options.ranks};
-  auto owned = begun<chain::Run>(options, &record::Checkpoint::snapshots, plan.chain, plan.on_line, execution);
-  const chain::Run& run = *owned;
-  Result result = on_line(std::move(owned), plan, "chain");
-  if (plan.on_line.displacement) result.metadata.sites = run.sites();
-  result.metadata.paths = run.path_settings();
-  result.describe = [&run](record::RunMetadata& metadata) {
-    metadata.events = run.events();
-    metadata.fronts = run.fronts();
-  };
-  result.numbers = [&run](const output::Spent& spent) {
-    const chain::Averages averages = run.averages();
-    return rows_of({run, run.balance(), averages, spent});
-  };
+  Result result =
+      begun<chain::Run>(plan, options, "chain", &record::Checkpoint::snapshots, plan.chain, plan.on_line, execution);
+  const chain::Run& run = the<chain::Run>(result);
+  result.snapshots = [&run]() -> auto& { return run.snapshots(); };
+  if (plan.chain.loading.acts()) result.events = [&run] { return run.events(); };
   return result;
 }
 
 Result begin_plane(const Plan& plan, const Options& options) {
-  const scenario::Scenario& s = plan.scenario;
-  auto owned = begun<plane::Run>(options, &record::Checkpoint::fields,
-                                 scenario::plane_solver(s, plan.solver, options.threads, options.ranks), plan.on_plane);
-  const plane::Run& run = *owned;
-  Result result{
-      .run = std::move(owned),
-      .metadata = metadata_of(s, plan.solver == scenario::SolverKind::plane ? "plane" : "plane --direct", {})};
-  result.arrays = [&run](const record::RunMetadata&) { return record::arrays_of(run); };
-  result.write = [&run](const std::string& path, const record::RunMetadata& metadata, const std::string& state) {
-    record::write_run(path, metadata, record::arrays_of(run), state, run.finished());
-  };
-  result.numbers = [&run, &plan](const output::Spent& spent) {
-    std::vector<Row> rows = rows_of(run, plan.scenario.plane->probes, spent.wall);
-    if (plan.model)
+  const char* const command = plan.solver == scenario::SolverKind::plane ? "plane" : "plane --direct";
+  Result result = begun<plane::Run>(plan, options, command, &record::Checkpoint::fields,
+                                    scenario::plane_solver(plan.scenario, plan.solver, options.threads, options.ranks),
+                                    plan.on_plane);
+  const plane::Run& run = the<plane::Run>(result);
+  if (plan.model)
+    result.numbers = [&run, &plan](const output::Spent& spent) {
+      std::vector<Row> rows = rows_of(run, spent);
       for (Row& row : compare_with_model(*plan.model, plan.scenario, run)) rows.push_back(std::move(row));
-    return rows;
-  };
+      return rows;
+    };
   if (!options.ranks && !plan.model)  // processes that share a run do not share coarser ones
     result.add_errors = [&plan, threads = options.threads](std::vector<Row>& summary,
                                                            const std::function<bool()>& interrupted) {
@@ -168,29 +152,6 @@ Result begin(const Plan& plan, const Options& options) {
       return plan.solver == scenario::SolverKind::pulse ? begin_pulse(plan, options) : begin_chain(plan, options);
     });
   });
-}
-
-bool compare(const scenario::Scenario& scenario, const Comparison& comparison, const std::vector<double>& scales,
-             const record::Output& output, int threads, std::vector<ComparedModel>& levels,
-             const std::function<void()>& next_level,
-             const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
-  const auto write = [&](bool finished) {
-    if (!output.wanted()) return;
-    std::vector<record::ComparedLevel> compared;
-    compared.reserve(levels.size());
-    for (const ComparedModel& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
-    record::write_comparison(finished ? output.finished() : output.unfinished(),
-                             metadata_of(scenario, "compare", comparison.schedule.x_edges, scales),
-                             comparison.schedule.times, compared, finished);
-    if (finished) output.clear();
-  };
-  const auto next = [&] {
-    next_level();
-    write(false);
-  };
-  const bool reached = run_levels(comparison, threads, levels, next, after_step);
-  write(reached);
-  return reached;
 }
 
 }  // namespace slipfront::run

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "runs/compare.hpp"
 #include "runs/record/arrays.hpp"
 #include "runs/record/run_file.hpp"
 #include "runs/summary.hpp"
@@ -43,9 +42,9 @@ struct Options {
 /// if the user asks for SI units and [medium] lacks a constant; without that request, this is a warning.
 void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si);
 
-/// The metadata for the file of a run of `command`.
-record::RunMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
-                                const std::vector<double>& x_edges, const std::vector<double>& scales = {});
+/// The metadata for a file, in this format, of a run of `command`.
+record::RunMetadata metadata_of(const scenario::Scenario& scenario, const char* format, const std::string& command,
+                                const std::vector<double>& scales = {});
 
 struct FaultOnPlane;
 
@@ -65,6 +64,7 @@ struct Plan {
 
   bool is_on_plane() const { return solver != scenario::SolverKind::pulse && solver != scenario::SolverKind::chain; }
   const std::vector<double>& times() const { return is_on_plane() ? on_plane.times : on_line.times; }
+  const char* format() const { return is_on_plane() ? record::plane_format : record::pulse_format; }
 };
 /// \throws InputError.
 Plan plan_of(scenario::SolverKind solver, scenario::Scenario scenario, double share_of_machine = 1);
@@ -90,16 +90,11 @@ struct Result {
   record::RunMetadata metadata;   ///< includes the warnings of a finished run
   std::vector<Row> summary = {};  ///< numbers of a finished run, in the units of the model
 
-  // Functions that differ from solver to solver. They refer to the run and its plan.
-  /// Adds the events so far to the metadata. Null: the run has no events.
-  std::function<void(record::RunMetadata& metadata)> describe = {};
-  /// Returns the variables of the file.
-  std::function<std::vector<record::Array>(const record::RunMetadata& metadata)> arrays = {};
-  /// Writes the run and its saved state to a file.
-  std::function<void(const std::string& path, const record::RunMetadata& metadata, const std::string& state)> write =
-      {};
-  /// (all ranks) Returns the summary.
-  std::function<std::vector<Row>(const output::Spent& spent)> numbers = {};
+  // Functions of the run and its plan, to which they refer.
+  std::function<std::vector<record::Array>()> arrays = {};                   ///< the variables of the file
+  std::function<std::vector<Row>(const output::Spent& spent)> numbers = {};  ///< (all ranks) the summary
+  std::function<const std::vector<output::Snapshot>&()> snapshots = {};      ///< null on a plane
+  std::function<std::vector<output::SlipEvent>()> events = {};               ///< null unless a chain is loaded
   /// Sets the errors of the summary, by coarser runs (run/errors.hpp). Returns warnings. Null: they are set, or there
   /// are none.
   std::function<std::vector<std::string>(std::vector<Row>& summary, const std::function<bool()>& interrupted)>
@@ -117,12 +112,5 @@ Result begin(const Plan& plan, const Options& options);
 /// existing file at the output is replaced only at the end of the run. \throws NumericsError, after writing the results
 /// so far; InputError, FileError.
 Result carry_out(const Plan& plan, const Options& options);
-
-/// Runs a comparison, and writes each level when it is finished. `levels` gets the finished levels. `scales` are those
-/// that the user stated. Returns whether all levels are finished. \throws as run_levels, FileError.
-bool compare(const scenario::Scenario& scenario, const Comparison& comparison, const std::vector<double>& scales,
-             const record::Output& output, int threads, std::vector<ComparedModel>& levels,
-             const std::function<void()>& next_level,
-             const std::function<bool(const std::string& level, double time, long steps)>& after_step);
 
 }  // namespace slipfront::run

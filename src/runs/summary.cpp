@@ -74,13 +74,15 @@ double Row::number() const {
   return none;
 }
 
-std::vector<Row> rows_of(const pulse::Report& report) {
-  return all_rows(report, pulse::quantities(), MeasuredBy::pulse);
+std::vector<Row> rows_of(const pulse::Run& run, const output::Spent& spent) {
+  return all_rows(pulse::Report{run, spent}, pulse::quantities(), MeasuredBy::pulse);
 }
 
-std::vector<Row> rows_of(const chain::Report& report) {
-  std::vector<Row> rows = all_rows(report, chain::quantities(), MeasuredBy::chain);
-  const chain::Averages& averages = report.averages;
+std::vector<Row> rows_of(const chain::Run& run, const output::Spent& spent) {
+  const chain::Balance balance = run.balance();
+  const chain::Averages averages = run.averages();
+  std::vector<Row> rows =
+      all_rows(chain::Report{run, balance, averages, spent}, chain::quantities(), MeasuredBy::chain);
   for (Row& row : rows) {
     if (row.about.error == ErrorRule::slip_velocity) row.errors = {averages.velocity_error};
     if (row.about.error == ErrorRule::stress) row.errors = {averages.stress_error};
@@ -89,7 +91,7 @@ std::vector<Row> rows_of(const chain::Report& report) {
   return rows;
 }
 
-std::vector<Row> rows_of(const plane::Run& run, const std::vector<plane::Point>& probes, double wall) {
+std::vector<Row> rows_of(const plane::Run& run, const output::Spent& spent) {
   const plane::SeriesRow& end = run.series().back();
   std::vector<Row> rows = {{output::end_time, end.time}};
   for (const plane::SeriesNumber& number : plane::series_numbers()) {
@@ -97,8 +99,9 @@ std::vector<Row> rows_of(const plane::Run& run, const std::vector<plane::Point>&
     Row& row = rows.emplace_back(number.about, number.get(end));
     if (row.about.name.starts_with("energy_")) row.group = "energies";
   }
+  const std::vector<plane::Point>& probes = run.schedule().probes;
   const plane::Solver& solver = run.solver();
-  add_numbers({run, run.maps(), solver.slip(probes), solver.velocity(probes), wall}, plane::quantities(), rows);
+  add_numbers({run, run.maps(), solver.slip(probes), solver.velocity(probes), spent}, plane::quantities(), rows);
   return rows;
 }
 

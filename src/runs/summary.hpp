@@ -38,10 +38,10 @@ struct Row {
   double number() const;                  ///< NaN for a text or a list
 };
 
-std::vector<Row> rows_of(const pulse::Report& report);
-std::vector<Row> rows_of(const chain::Report& report);
-/// (all ranks)
-std::vector<Row> rows_of(const plane::Run& run, const std::vector<plane::Point>& probes, double wall);
+/// (all ranks) The numbers of a run that has reached its end.
+std::vector<Row> rows_of(const pulse::Run& run, const output::Spent& spent);
+std::vector<Row> rows_of(const chain::Run& run, const output::Spent& spent);
+std::vector<Row> rows_of(const plane::Run& run, const output::Spent& spent);
 
 /// A number that a run of "pulse" or "chain" has. A sweep returns the results by default, but not its time and machine.
 struct NumberOfRun {

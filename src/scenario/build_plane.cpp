@@ -300,6 +300,7 @@ plane::Schedule plane_schedule(const Scenario& s, SolverKind solver) {
   set_rupture_rule(s, solver, schedule);
   schedule.wave_speed_ratio = s.plane->wave_speed_ratio;
   schedule.lines = s.plane->lines;
+  schedule.probes = s.plane->probes;
   return schedule;
 }
 

@@ -79,8 +79,8 @@ TEST(Laws, SlipEquallyOnThePulseAndOnChainsOfTwoScales) {
       SCOPED_TRACE(std::string(law->name) + ", word " + std::to_string(word));
       const scenario::Scenario s = step_under(*law, word, force_that_halves_slip(*law, word));
       std::vector<run::ComparedModel> levels;
-      run::run_levels(
-          run::comparison_of(s, {small_scale, large_scale}), 1, levels, [] {},
+      run::compare(
+          run::comparison_of(s, {small_scale, large_scale}), {}, {}, 1, levels, [] {},
           [](const std::string&, double, long) { return false; });
       // The position of the last dislocation that passed adds up to half a dislocation to the slip of a chain.
       const double pulse = slip_of(levels, "pulse-consistent"), share_of_dislocation = 0.3 * 2 * std::numbers::pi;

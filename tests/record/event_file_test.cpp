@@ -8,6 +8,7 @@
 
 #include "events/results/columns.hpp"
 #include "events/results/evaluate.hpp"
+#include "runs/record/arrays.hpp"
 #include "runs/record/netcdf/netcdf.hpp"
 #include "runs/record/run_file.hpp"
 #include "slipfront/error.hpp"
@@ -100,9 +101,8 @@ TEST_F(EventFile, RejectsAFileOfAnotherCatalogue) {
   EXPECT_THROW(read_events_done(path, other), InputError);
   EXPECT_THROW(read_events_done(folder / "none.nc", event_metadata), FileError);
   EXPECT_THROW(read_checkpoint(path), FileError);
-  write_pulse(
-      path, {.title = {}, .scenario_text = {}, .version = "1", .command_line = {}, .x_edges = {0, 1}, .variables = {}},
-      {}, "", false);
+  write_run(path, {.format = pulse_format, .title = {}, .scenario_text = {}, .version = "1", .command_line = {}}, {},
+            "", false);
   EXPECT_THROW(read_events_done(path, event_metadata), FileError);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "runs/record/arrays.hpp"
 #include "runs/record/run_file.hpp"
 
 /// Numbers that a lossy file would not bring back: NaN, infinity, -0, subnormal, all bits of the mantissa.
@@ -40,11 +41,26 @@ inline std::vector<slipfront::output::Snapshot> sample_snapshots(std::size_t tim
   return snapshots;
 }
 
-inline slipfront::record::RunMetadata sample_metadata(std::size_t cells) {
-  slipfront::record::RunMetadata metadata{
-      "a title", "title = \"a title\"\n[initial]\n", "1.2.3", "slipfront pulse a.toml", {}, {}};
-  for (std::size_t i = 0; i <= cells; ++i) metadata.x_edges.push_back(0.1 * static_cast<double>(i) - 1);
-  return metadata;
+inline slipfront::record::RunMetadata sample_metadata() {
+  return {.format = slipfront::record::pulse_format,
+          .title = "a title",
+          .scenario_text = "title = \"a title\"\n[initial]\n",
+          .version = "1.2.3",
+          .command_line = "slipfront pulse a.toml"};
+}
+
+inline std::vector<slipfront::record::Array> arrays_of(const slipfront::record::RunMetadata& metadata,
+                                                       const std::vector<slipfront::output::Snapshot>& snapshots) {
+  std::vector<double> edges = {-1};
+  const std::size_t cells = snapshots.empty() ? 1 : snapshots.back().profile.W.size();
+  for (std::size_t i = 1; i <= cells; ++i) edges.push_back(0.1 * static_cast<double>(i) - 1);
+  return slipfront::record::arrays_of(edges, metadata.variables, snapshots);
+}
+
+inline void write_pulse(const std::string& path, const slipfront::record::RunMetadata& metadata,
+                        const std::vector<slipfront::output::Snapshot>& snapshots, const std::string& state,
+                        bool finished) {
+  slipfront::record::write_run(path, metadata, arrays_of(metadata, snapshots), state, finished);
 }
 
 inline std::string sample_state() {

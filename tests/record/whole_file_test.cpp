@@ -40,9 +40,7 @@ extern "C" int rename(const char* from, const char* to) noexcept {
 namespace {
 
 std::string failure(const std::string& path, std::size_t cells = 3) {
-  const auto write = [&] {
-    slipfront::record::write_pulse(path, sample_metadata(cells), sample_snapshots(2, cells), "", false);
-  };
+  const auto write = [&] { write_pulse(path, sample_metadata(), sample_snapshots(2, cells), "", false); };
   return message_of<slipfront::FileError>(write);
 }
 

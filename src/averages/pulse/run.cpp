@@ -220,7 +220,7 @@ constexpr output::Quantity<Report> of_run[] = {
     {{"solve_seconds", "seconds of the time steps only", "", ""},
      [](const Report& e) -> Value { return e.run.stepping_seconds(); },
      output::Kind::of_machine},
-    {output::wall_time, [](const Report& e) -> Value { return e.wall; }, output::Kind::of_machine},
+    {output::wall_time, [](const Report& e) -> Value { return e.spent.wall; }, output::Kind::of_machine},
 };
 
 }  // namespace

@@ -335,7 +335,7 @@ constexpr output::Quantity<Report> of_run[] = {
       "no cell has slipped, or a cell has no stress"},
      [](const Report& e) -> Value { return stress_drop(e.maps.initial_stress, e.maps.final_stress, e.maps.slip); }},
     {output::step_count, [](const Report& e) -> Value { return e.run.solver().steps(); }},
-    {output::wall_time, [](const Report& e) -> Value { return e.wall; }, output::Kind::of_machine},
+    {output::wall_time, [](const Report& e) -> Value { return e.spent.wall; }, output::Kind::of_machine},
 };
 
 }  // namespace

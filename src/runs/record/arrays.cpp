@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -57,8 +58,8 @@ int reals(Writer& file, const Description& about, const std::vector<int>& dimens
   return variable;
 }
 
-void describe_file(Writer& file, const RunMetadata& metadata, const char* format, bool finished) {
-  for (const auto& [name, value] : file_attributes(metadata, format))
+void describe_file(Writer& file, const RunMetadata& metadata, bool finished) {
+  for (const auto& [name, value] : file_attributes(metadata))
     file.attribute(Writer::global, name, clean_text(value, netcdf::longest_text));
   file.attribute(Writer::global, "finished", finished ? 1 : 0);
 }
@@ -75,8 +76,7 @@ std::string reference_of(const Description& about) {
   return std::string(cf::paper) + ", " + std::string(about.reference);
 }
 
-std::vector<std::pair<std::string, std::string>> file_attributes(const RunMetadata& metadata,
-                                                                 const std::string& format) {
+std::vector<std::pair<std::string, std::string>> file_attributes(const RunMetadata& metadata) {
   std::string warnings;
   for (const std::string& warning : metadata.warnings) warnings += (warnings.empty() ? "" : "\n") + warning;
   std::vector<std::pair<std::string, std::string>> all = {
@@ -89,7 +89,7 @@ std::vector<std::pair<std::string, std::string>> file_attributes(const RunMetada
       {"version", metadata.version},
       {"warnings", warnings},
       {"scenario", metadata.scenario_text},
-      {"slipfront_format", format},
+      {"slipfront_format", metadata.format},
   };
   if (metadata.units) {
     all.emplace_back("unit_system", "SI");
@@ -103,16 +103,21 @@ namespace {
 using Dimensions = std::vector<Array::Dimension>;
 using output::Snapshot;
 
+using Series = std::vector<const std::vector<Snapshot>*>;  ///< the snapshots of one run, or of each level
+
 /// The values of every snapshot, level by level. `put` appends those of one.
 template <class Put>
-std::vector<double> over_snapshots(const Levels& levels, const Put& put) {
+std::vector<double> over_snapshots(const Series& series, const Put& put) {
   std::vector<double> values;
-  for (const std::vector<Snapshot>* level : levels)
+  for (const std::vector<Snapshot>* level : series)
     for (const Snapshot& snapshot : *level) put(values, snapshot, level->front());
   return values;
 }
 
-void add_axes(std::vector<Array>& all, const std::vector<double>& times, const std::vector<double>& edges) {
+/// The axes, the fields over x, and the numbers over time. `over` are the dimensions before time.
+std::vector<Array> arrays_over(Dimensions over, const std::vector<double>& times, const std::vector<double>& edges,
+                               const std::vector<std::string>& variables, const Series& series) {
+  std::vector<Array> all;
   std::vector<double> centres, bounds;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     centres.push_back(std::midpoint(edges[i], edges[i + 1]));
@@ -125,34 +130,46 @@ void add_axes(std::vector<Array>& all, const std::vector<double>& times, const s
   const Description about = {"x_bounds", "ends of the cell", "b / A", "Eq. 3"};
   all.back().attributes.emplace_back("bounds", about.name);
   all.push_back({about, {{"x", cells}, {"ends", 2}}, [bounds] { return bounds; }, {}});
+  over.push_back({"time", times.size()});
+  Dimensions over_x = over;
+  over_x.push_back({"x", cells});
+  for (const FieldVariable* field : chosen_fields(variables))
+    all.push_back({field->about,
+                   over_x,
+                   [series, field] {
+                     return over_snapshots(series, [&](auto& values, const Snapshot& s, const Snapshot& first) {
+                       const std::vector<double> row = field->of(s, first);
+                       values.insert(values.end(), row.begin(), row.end());
+                     });
+                   },
+                   {}});
+  for (const output::Scalar& scalar : output::scalars())
+    all.push_back({scalar.about,
+                   over,
+                   [series, get = scalar.get] {
+                     return over_snapshots(
+                         series, [&](auto& values, const Snapshot& s, const Snapshot&) { values.push_back(get(s)); });
+                   },
+                   {}});
+  return all;
 }
 
 /// The slip events, and their arrivals at the positions that the scenario asks for.
-void add_events(std::vector<Array>& all, const RunMetadata& metadata) {
-  const std::vector<output::SlipEvent>& events = metadata.events;
+void add_events(std::vector<Array>& all, const chain::Run& run) {
+  const std::vector<output::SlipEvent> events = run.events();
+  const output::FrontRecords fronts = run.fronts();
   if (events.empty()) return;
+  const bool pulled_end = run.chain().problem().loading.where != chain::Pulled::everywhere;
+  const auto add = [&](const Description& about, const Dimensions& dimensions, std::vector<double> values) {
+    all.push_back({about, dimensions, [kept = std::move(values)] { return kept; }, {}});
+  };
   for (const output::SlipEventColumn& column : output::slip_event_columns())
-    all.push_back({output::description_of(column, metadata.pulled_end),
-                   {{"event", events.size()}},
-                   values_of(events, column.value),
-                   {}});
-  const output::FrontRecords& fronts = metadata.fronts;
+    add(output::description_of(column, pulled_end), {{"event", events.size()}}, values_of(events, column.value)());
   if (fronts.events.empty()) return;
   all.push_back(coordinate(output::front_position, fronts.x));
   for (const MemberArray<output::FrontRecord>& column : output::front_columns())
-    all.push_back({column.about,
-                   {{"event", events.size()}, {output::front_position.name, fronts.x.size()}},
-                   values_of(fronts.events, column.values),
-                   {}});
-}
-
-void add_displacement(std::vector<Array>& all, const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
-  if (metadata.sites.empty()) return;
-  all.push_back(coordinate(layout::site, metadata.sites));
-  all.push_back({layout::displacement,
-                 {{"time", snapshots.size()}, {layout::site.name, metadata.sites.size()}},
-                 values_of(snapshots, &Snapshot::displacement),
-                 {}});
+    add(column.about, {{"event", events.size()}, {output::front_position.name, fronts.x.size()}},
+        values_of(fronts.events, column.values)());
 }
 
 /// \throws NumericsError if the table of all dislocations at all times is too large.
@@ -164,9 +181,20 @@ void require_memory(const output::DislocationPaths& paths) {
                         " GB; fewer outputs are needed");
 }
 
-void add_dislocations(std::vector<Array>& all, const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
-  const auto paths =
-      std::make_shared<const output::DislocationPaths>(output::dislocation_paths(snapshots, metadata.paths));
+}  // namespace
+
+void add_displacement(std::vector<Array>& all, const std::vector<double>& sites,
+                      const std::vector<Snapshot>& snapshots) {
+  all.push_back(coordinate(layout::site, sites));
+  all.push_back({layout::displacement,
+                 {{"time", snapshots.size()}, {layout::site.name, sites.size()}},
+                 values_of(snapshots, &Snapshot::displacement),
+                 {}});
+}
+
+void add_dislocations(std::vector<Array>& all, const output::PathSettings& settings,
+                      const std::vector<Snapshot>& snapshots) {
+  const auto paths = std::make_shared<const output::DislocationPaths>(output::dislocation_paths(snapshots, settings));
   const std::size_t count = paths->signs.size();
   if (count == 0) return;
   require_memory(*paths);
@@ -194,8 +222,6 @@ void add_dislocations(std::vector<Array>& all, const RunMetadata& metadata, cons
   add(layout::dislocation_level, [](const output::Dislocation& d) { return static_cast<double>(d.level); });
 }
 
-}  // namespace
-
 Array coordinate(const Description& about, std::vector<double> values, std::string_view axis) {
   Array array{about, {{about.name, values.size()}}, {}, {}};
   array.values = [kept = std::move(values)] { return kept; };
@@ -203,42 +229,41 @@ Array coordinate(const Description& about, std::vector<double> values, std::stri
   return array;
 }
 
-std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<Snapshot>& snapshots) {
-  return arrays_of(metadata, values_of(snapshots, &Snapshot::time)(), {&snapshots}, false);
+std::vector<Array> arrays_of(const std::vector<double>& x_edges, const std::vector<std::string>& variables,
+                             const std::vector<Snapshot>& snapshots) {
+  return arrays_over({}, values_of(snapshots, &Snapshot::time)(), x_edges, variables, {&snapshots});
 }
 
-std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<double>& times, const Levels& levels,
-                             bool by_level) {
-  std::vector<Array> all;
-  add_axes(all, times, metadata.x_edges);
-  Dimensions over_time;
-  if (by_level) over_time.push_back({"level", levels.size()});
-  over_time.push_back({"time", times.size()});
-  Dimensions over_x = over_time;
-  over_x.push_back({"x", metadata.x_edges.size() - 1});
-  for (const FieldVariable* field : chosen_fields(metadata.variables))
-    all.push_back({field->about,
-                   over_x,
-                   [levels, field] {
-                     return over_snapshots(levels, [&](auto& values, const Snapshot& s, const Snapshot& first) {
-                       const std::vector<double> row = field->of(s, first);
-                       values.insert(values.end(), row.begin(), row.end());
-                     });
-                   },
-                   {}});
-  for (const output::Scalar& scalar : output::scalars())
-    all.push_back({scalar.about,
-                   over_time,
-                   [levels, get = scalar.get] {
-                     return over_snapshots(
-                         levels, [&](auto& values, const Snapshot& s, const Snapshot&) { values.push_back(get(s)); });
-                   },
-                   {}});
-  add_events(all, metadata);
-  if (by_level) return all;
-  add_displacement(all, metadata, *levels.front());
-  add_dislocations(all, metadata, *levels.front());
+std::vector<Array> arrays_of(const pulse::Run& run, const std::vector<std::string>& variables) {
+  return arrays_of(run.schedule().x_edges, variables, run.snapshots());
+}
+
+std::vector<Array> arrays_of(const chain::Run& run, const std::vector<std::string>& variables) {
+  std::vector<Array> all = arrays_of(run.schedule().x_edges, variables, run.snapshots());
+  add_events(all, run);
+  if (run.schedule().displacement) add_displacement(all, run.sites(), run.snapshots());
+  if (run.schedule().dislocations) add_dislocations(all, run.path_settings(), run.snapshots());
   return all;
+}
+
+std::vector<Array> arrays_of(const output::Schedule& schedule, const std::vector<std::string>& variables,
+                             const std::vector<Level>& levels) {
+  Series series;
+  std::vector<double> scales;
+  for (const Level& level : levels) {
+    series.push_back(level.snapshots);
+    scales.push_back(level.scale);
+  }
+  const Dimensions by_level = {{"level", levels.size()}};
+  std::vector<Array> all = arrays_over(by_level, schedule.times, schedule.x_edges, variables, series);
+  all.push_back({output::scale_factor, by_level, [scales] { return scales; }, {}});
+  return all;
+}
+
+std::size_t Array::size() const {
+  std::size_t size = 1;
+  for (const Dimension& dimension : dimensions) size *= dimension.size;
+  return size;
 }
 
 Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const RunMetadata& metadata) {
@@ -259,9 +284,12 @@ Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const Run
 }
 
 void write(netcdf::Writer& file, const Defined& defined, const std::vector<Array>& arrays) {
-  for (std::size_t i = 0; i < arrays.size(); ++i)
-    if (const std::vector<double> values = arrays[i].values(); !values.empty())
-      file.write_all(defined.variables[i], values);
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    const std::vector<double> values = arrays[i].values();
+    if (values.size() != arrays[i].size())
+      throw std::invalid_argument(std::string(arrays[i].about.name) + " has not as many values as its dimensions");
+    if (!values.empty()) file.write_all(defined.variables[i], values);
+  }
 }
 
 namespace {
@@ -276,7 +304,7 @@ std::vector<double> centres(double from, double to, int cells) {
 
 }  // namespace
 
-std::vector<Array> arrays_of(const plane::Run& run) {
+std::vector<Array> arrays_of(const plane::Run& run, const std::vector<std::string>& /*variables*/) {
   std::vector<Array> all;
   const plane::Problem& p = run.solver().problem();
   const plane::Schedule& schedule = run.schedule();

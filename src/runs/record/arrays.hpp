@@ -14,8 +14,11 @@
 
 #include "runs/record/netcdf/netcdf.hpp"
 #include "runs/record/run_file.hpp"
+#include "slipfront/averages/pulse/run.hpp"
 #include "slipfront/description.hpp"
+#include "slipfront/lattice/chain/run.hpp"
 #include "slipfront/lattice/plane/run.hpp"
+#include "slipfront/text/output/dislocation_paths.hpp"
 
 namespace slipfront::record::cf {
 
@@ -23,9 +26,8 @@ namespace slipfront::record::cf {
 int reals(netcdf::Writer& file, const Description& about, const std::vector<int>& dimensions,
           const RunMetadata& metadata);
 
-/// Writes the attributes of the file. The number in `format` increases when old readers would fail. A scenario that no
-/// attribute can hold is cleaned and truncated.
-void describe_file(netcdf::Writer& file, const RunMetadata& metadata, const char* format, bool finished);
+/// Writes the attributes of the file. A scenario that no attribute can hold is cleaned and truncated.
+void describe_file(netcdf::Writer& file, const RunMetadata& metadata, bool finished);
 
 }  // namespace slipfront::record::cf
 
@@ -40,22 +42,36 @@ struct Array {
   std::vector<Dimension> dimensions;
   std::function<std::vector<double>()> values;                            ///< row by row
   std::vector<std::pair<std::string_view, std::string_view>> attributes;  ///< further ones, by the CF conventions
+
+  std::size_t size() const;  ///< number of values
 };
 
 /// A coordinate: its name is that of its dimension.
 Array coordinate(const Description& about, std::vector<double> values, std::string_view axis = {});
 
-/// One series of snapshots for each level of theory.
-using Levels = std::vector<const std::vector<output::Snapshot>*>;
+/// One level of theory in the file of a comparison.
+struct Level {
+  std::string name;
+  double scale;  ///< NaN unless it is a chain
+  const std::vector<output::Snapshot>* snapshots;
+};
 
-/// The variables of a run along a line, or of a comparison `by_level`, where "level" is the first dimension. They refer
-/// to the arguments. \throws InputError if the metadata has an unknown variable.
-std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<output::Snapshot>& snapshots);
-std::vector<Array> arrays_of(const RunMetadata& metadata, const std::vector<double>& times, const Levels& levels,
-                             bool by_level = true);
-
-/// The variables of a run on a plane, which must outlive them.
-std::vector<Array> arrays_of(const plane::Run& run);
+/// The variables of results. They refer to the run, or to the snapshots, which must outlive them. `variables` are names
+/// of field_variables(), as chosen_fields takes them. \throws InputError for an unknown variable.
+std::vector<Array> arrays_of(const pulse::Run& run, const std::vector<std::string>& variables);
+std::vector<Array> arrays_of(const chain::Run& run, const std::vector<std::string>& variables);
+/// On a plane, a file has all variables.
+std::vector<Array> arrays_of(const plane::Run& run, const std::vector<std::string>& variables);
+/// Each variable over "level" first. Every level has a snapshot at each time of the schedule.
+std::vector<Array> arrays_of(const output::Schedule& schedule, const std::vector<std::string>& variables,
+                             const std::vector<Level>& levels);
+/// The variables of a run along a line, without slip events, sites and dislocations.
+std::vector<Array> arrays_of(const std::vector<double>& x_edges, const std::vector<std::string>& variables,
+                             const std::vector<output::Snapshot>& snapshots);
+void add_displacement(std::vector<Array>& all, const std::vector<double>& sites,
+                      const std::vector<output::Snapshot>& snapshots);
+void add_dislocations(std::vector<Array>& all, const output::PathSettings& settings,
+                      const std::vector<output::Snapshot>& snapshots);
 
 /// The values of all items, one after the other. `get` returns the number or the vector of one, or is such a member.
 template <class Items, class Get>
@@ -84,9 +100,14 @@ Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const Run
 /// Writes the values of arrays that `define` has defined.
 void write(netcdf::Writer& file, const Defined& defined, const std::vector<Array>& arrays);
 
-/// Writes the file of a run, completely or not at all, with its saved state. On a plane there is no `checksum`. \throws
+/// Writes the file of a run, completely or not at all, with its saved state; an old file is unchanged if this fails.
+/// Equal arguments give files that are equal byte by byte, because a file holds neither date nor host. \throws
 /// FileError (one line: path and reason).
 void write_run(const std::string& path, const RunMetadata& metadata, const std::vector<Array>& arrays,
-               const std::string& state, bool finished, const std::string& checksum = {});
+               const std::string& state, bool finished);
+
+/// Writes the file of a comparison in the same way.
+void write_comparison(const std::string& path, const RunMetadata& metadata, std::vector<Array> arrays,
+                      const std::vector<Level>& levels, bool finished);
 
 }  // namespace slipfront::record

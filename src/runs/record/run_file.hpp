@@ -4,8 +4,6 @@
 /// It has the variables of a run along a line over time and x, one line each; those over time are output::scalars().
 /// The file of a comparison has the dimensions level, time and x.
 
-#include <cstddef>
-#include <cstdio>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,37 +13,28 @@
 
 #include "slipfront/description.hpp"
 #include "slipfront/lattice/plane/problem.hpp"
-#include "slipfront/text/output/dislocation_paths.hpp"
 #include "slipfront/text/output/quantities.hpp"
-#include "slipfront/text/output/slip_event.hpp"
 #include "slipfront/text/output/snapshot.hpp"
 #include "slipfront/theory/medium/si_units.hpp"
-#include "system/files/seal.hpp"
 
 namespace slipfront::record {
 
 /// Values of the attribute slipfront_format. Increase a number when old readers would fail.
-inline constexpr const char *pulse_format = "pulse 1", *plane_format = "plane 2";
+inline constexpr const char *pulse_format = "pulse 2", *plane_format = "plane 2", *comparison_format = "comparison 1";
 
-/// The content of the file of a run in addition to its snapshots.
+/// The content of the file of a run in addition to its arrays and its state.
 struct RunMetadata {
+  std::string format;
   std::string title;
-  std::string scenario_text;               ///< any bytes; read back unchanged
-  std::string version;                     ///< version of slipfront
-  std::string command_line;                ///< stored as the file's history
-  std::vector<double> x_edges;             ///< edges of the cells, ascending: one more than there are cells
-  std::vector<std::string> variables;      ///< names of pulse_variables(); empty: all
-  std::vector<std::string> warnings = {};  ///< warnings of the scenario and the finished run, a sentence each
-  /// Events of a loaded chain so far. The file holds them as variables event_... over the dimension event.
-  std::vector<output::SlipEvent> events = {};
-  bool pulled_end = false;  ///< springs pull one end; see output::description_of
+  std::string scenario_text;                ///< any bytes; read back unchanged
+  std::string version;                      ///< version of slipfront
+  std::string command_line;                 ///< stored as the file's history
+  std::vector<std::string> variables = {};  ///< names of pulse_variables(); empty: all
+  std::vector<std::string> warnings = {};   ///< warnings of the scenario and the finished run, a sentence each
   /// Units of the file; absent: of the model. The numbers in a file are always those of the model, so that a run can
   /// continue with the same bits. In SI units each variable has a `scale_factor` (CF, section 8.1), which readers
   /// apply.
   std::optional<medium::SiUnits> units = {};
-  output::FrontRecords fronts = {};  ///< arrivals of these events, over the dimensions event and position
-  std::vector<double> sites = {};    ///< positions of the sites, if the snapshots have their displacement
-  output::PathSettings paths = {};   ///< how to number dislocations
 };
 
 /// An unfinished or a finished run.
@@ -61,20 +50,12 @@ struct Checkpoint {
 /// Names of the variables over time and x that a file can hold. Variables over only time are always written.
 std::vector<std::string> pulse_variables();
 
-/// Writes `path` completely or not at all; an old file is unchanged if this fails. Equal arguments give files that are
-/// equal byte by byte, because a file holds neither date nor host. Times must ascend, and profiles must have as many
-/// cells as `x_edges`; fields that are not requested may be empty. `snapshots` may be empty. \throws FileError (one
-/// line: path and reason), InputError for an unknown variable, std::invalid_argument for wrong times or profiles.
-void write_pulse(const std::string& path, const RunMetadata& metadata, const std::vector<output::Snapshot>& snapshots,
-                 const std::string& solver_state, bool finished);
-
-/// Reads a file by write_pulse or, with the format plane_format, of a run on a plane, with every bit as it was written.
-/// \throws FileError if the file is missing, not by slipfront, truncated, damaged, or changed by another program.
+/// Reads a file by write_run (arrays.hpp) with every bit as it was written. \throws FileError if the file is missing,
+/// not by slipfront, not in this format, truncated, damaged, or changed by another program.
 Checkpoint read_checkpoint(const std::string& path, const std::string& format = pulse_format);
 
-/// Names and texts of the attributes of a file. `format` is the value of its slipfront_format.
-std::vector<std::pair<std::string, std::string>> file_attributes(const RunMetadata& metadata,
-                                                                 const std::string& format);
+/// Names and texts of the attributes of a file.
+std::vector<std::pair<std::string, std::string>> file_attributes(const RunMetadata& metadata);
 /// The attribute `long_name` of a variable in SI units.
 std::string long_name_of(const Description& about, const medium::UnitInSi& unit);
 /// The text of the attribute `references` of a variable.
@@ -126,42 +107,4 @@ inline constexpr Description
     dislocation_level = {"dislocation_level", "n, where a dislocation is where u passes (2 n + 1) pi", "", "Eq. 3",
                          "the dislocation is not in the chain at this time"};
 
-/// Checksum of what a checkpoint holds: that reading it gave what was written.
-inline std::string checksum(const std::string& scenario, const std::string& state, bool finished,
-                            const std::vector<output::Snapshot>& snapshots,
-                            const std::vector<const FieldVariable*>& written) {
-  Fnv fnv;
-  fnv.text(scenario).text(state).number(finished).number(snapshots.size());
-  for (const output::Snapshot& snapshot : snapshots) {
-    fnv.real(snapshot.time);
-    for (const output::Scalar& scalar : output::scalars()) fnv.real(scalar.get(snapshot));
-    for (const auto field : profile_fields())
-      if (holder(written, field)) fnv.reals(snapshot.profile.*field);
-    if (!snapshot.displacement.empty()) fnv.reals(snapshot.displacement);
-    for (const output::Dislocation& d : snapshot.dislocations)
-      fnv.real(d.x).real(d.sign).real(static_cast<double>(d.level));
-  }
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(fnv.sum()));
-  return text;
-}
-
 }  // namespace slipfront::record::layout
-
-namespace slipfront::record {
-
-inline constexpr const char* comparison_format = "comparison 1";  ///< value of the attribute slipfront_format
-
-/// The results of one level of theory.
-struct ComparedLevel {
-  std::string name;
-  std::optional<double> scale;  ///< scale of a chain; absent for other levels
-  std::vector<output::Snapshot> snapshots;
-};
-
-/// Writes `path` completely or not at all. Every level must have a snapshot at each of `times`. \throws FileError (one
-/// line: path and reason), InputError for an unknown variable, std::invalid_argument if a snapshot is missing.
-void write_comparison(const std::string& path, const RunMetadata& metadata, const std::vector<double>& times,
-                      const std::vector<ComparedLevel>& levels, bool finished);
-
-}  // namespace slipfront::record

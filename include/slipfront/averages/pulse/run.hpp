@@ -66,7 +66,7 @@ class Run : public output::Run {
 /// A run that has reached its end.
 struct Report {
   const Run& run;
-  double wall;  ///< seconds, including set-up and output
+  output::Spent spent;
 };
 /// The numbers of a run that its snapshots do not have.
 std::span<const output::Quantity<Report>> quantities();

@@ -46,7 +46,7 @@ struct Report {
   const Run& run;
   Maps maps;
   std::vector<double> slip_at_probes, slip_velocity_at_probes;
-  double wall;  ///< seconds of the whole command
+  output::Spent spent;
 };
 /// The numbers of a run that its series does not have.
 std::span<const output::Quantity<Report>> quantities();

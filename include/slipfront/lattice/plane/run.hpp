@@ -23,7 +23,8 @@ struct Schedule {
   std::string rupture_rule = {};  ///< this slip in words
   /// y of the results over y of the problem: the speed of waves along y over that along x.
   double wave_speed_ratio = 1;
-  bool lines = false;  ///< whether snapshots have the dislocation lines
+  bool lines = false;              ///< whether snapshots have the dislocation lines
+  std::vector<Point> probes = {};  ///< points whose slip and slip velocity are numbers of the run
 };
 
 /// Approximate number of bytes of the snapshots and maps of a run.

@@ -102,13 +102,11 @@ void describe_file(Writer& file, const EventMetadata& metadata, bool finished) {
   const auto say = [&](const std::string& name, std::string_view text) {
     file.attribute(Writer::global, name, clean_text(text, netcdf::longest_text));
   };
-  for (const auto& [name, text] : file_attributes({.title = "Observed events",
+  for (const auto& [name, text] : file_attributes({.format = event_format,
+                                  .title = "Observed events",
                                   .scenario_text = {},
                                   .version = metadata.version,
-                                  .command_line = metadata.command_line,
-                                  .x_edges = {},
-                                  .variables = {}},
-                                                  event_format))
+                                  .command_line = metadata.command_line}))
     if (name != "scenario" && name != "comment") say(name, text);
   say("comment",
       "Variables in units of 1 are dimensionless. Multiply them by dimensional_unit, where A is the contact ratio, c "
