@@ -378,6 +378,6 @@ def read(name, any_file=False, group=None, si=None):
     data.attrs = {name: value.item() if isinstance(value, np.generic) else value for name, value in data.attrs.items()}
     if data.attrs.get("finished") == 1 and data.sizes.get("time"):
         data = data.assign_attrs(_summary(data))
-    if "name" in data.coords and data["name"].dtype.kind == "S":
-        data = data.assign_coords(name=(data["name"].dims, np.char.decode(data["name"].values, "utf-8"), data["name"].attrs)).set_xindex("name")
+    if "name" in data.coords:
+        data = data.set_xindex("name")
     return data

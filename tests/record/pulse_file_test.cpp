@@ -157,7 +157,7 @@ TEST(PulseFile, RejectsValuesThatDoNotFillTheirDimensions) {
   snapshots[0].profile.W.pop_back();
   const std::string message =
       message_of<std::invalid_argument>([&] { write_pulse(folder / "a.nc", sample_metadata(), snapshots, "", false); });
-  EXPECT_EQ(message, "W has not as many values as its dimensions");
+  EXPECT_EQ(message, "write_dataset: W has not as many values as its dimensions");
   EXPECT_EQ(folder.files(), 0u);
 }
 

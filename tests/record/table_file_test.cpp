@@ -43,7 +43,7 @@ std::string netcdf(const std::vector<double>& x, const std::vector<double>& stre
   Writer file("table");
   const int ids[] = {file.reals("x", {file.dimension("x", x.size())}),
                      file.reals("stress", {file.dimension("y", stress.size())})};
-  if (attribute == "_FillValue") file.fill_value(ids[1], 0.5);
+  if (attribute == "_FillValue") file.attribute(ids[1], attribute, 0.5);
   if (attribute == "scale_factor") file.attribute(ids[1], attribute, 2);
   file.end_definitions();
   file.write(ids[0], x);

@@ -1,9 +1,9 @@
 #include "runs/record/arrays.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,29 +18,12 @@
 #include "slipfront/text/output/quantities.hpp"
 #include "system/machine.hpp"
 
-namespace slipfront::record::cf {
+namespace slipfront::record {
 namespace {
-
-using netcdf::Writer;
 
 constexpr std::string_view paper = "Gershenzon, Bambakidis and Skinner (2015)";
 constexpr std::string_view paper_title =
     "How does dissipation affect the transition from static to dynamic macroscopic friction?";
-
-void describe(Writer& file, int variable, const Description& about, const RunMetadata& metadata) {
-  if (!metadata.units || about.dimensional_unit.empty()) {
-    file.attribute(variable, "long_name", about.long_name);
-    file.attribute(variable, "units", "1");
-    file.attribute(variable, "dimensional_unit", about.dimensional_unit);
-  } else {
-    const medium::UnitInSi unit = metadata.units->of(about.dimensional_unit);
-    file.attribute(variable, "long_name", long_name_of(about, unit));
-    file.attribute(variable, "units", unit.name);
-    file.attribute(variable, "scale_factor", unit.value);
-    file.attribute(variable, "unit_of_model", about.dimensional_unit);
-  }
-  file.attribute(variable, "references", reference_of(about));
-}
 
 std::string comment_of(const RunMetadata& metadata) {
   if (!metadata.units)
@@ -52,29 +35,26 @@ std::string comment_of(const RunMetadata& metadata) {
 
 }  // namespace
 
-int reals(Writer& file, const Description& about, const std::vector<int>& dimensions, const RunMetadata& metadata) {
-  const int variable = file.reals(std::string(about.name), dimensions);
-  describe(file, variable, about, metadata);
-  return variable;
-}
-
-void describe_file(Writer& file, const RunMetadata& metadata, bool finished) {
-  for (const auto& [name, value] : file_attributes(metadata))
-    file.attribute(Writer::global, name, clean_text(value, netcdf::longest_text));
-  file.attribute(Writer::global, "finished", finished ? 1 : 0);
-}
-
-}  // namespace slipfront::record::cf
-
-namespace slipfront::record {
-
 std::string long_name_of(const Description& about, const medium::UnitInSi& unit) {
   return std::string(about.long_name) + (unit.between_faces ? ", between the faces" : "");
 }
 
-std::string reference_of(const Description& about) {
-  return std::string(cf::paper) + ", " + std::string(about.reference);
+Attributes attributes_of(const Description& about, const RunMetadata& metadata) {
+  const std::string unit_of_model(about.dimensional_unit), reference = reference_of(about);
+  if (!metadata.units || unit_of_model.empty())
+    return {{"long_name", std::string(about.long_name)},
+            {"units", "1"},
+            {"dimensional_unit", unit_of_model},
+            {"references", reference}};
+  const medium::UnitInSi unit = metadata.units->of(unit_of_model);
+  return {{"long_name", long_name_of(about, unit)},
+          {"units", std::string(unit.name)},
+          {"scale_factor", unit.value},
+          {"unit_of_model", unit_of_model},
+          {"references", reference}};
 }
+
+std::string reference_of(const Description& about) { return std::string(paper) + ", " + std::string(about.reference); }
 
 std::vector<std::pair<std::string, std::string>> file_attributes(const RunMetadata& metadata) {
   std::string warnings;
@@ -84,8 +64,8 @@ std::vector<std::pair<std::string, std::string>> file_attributes(const RunMetada
       {"title", metadata.title},
       {"source", "slipfront " + metadata.version},
       {"history", metadata.command_line},
-      {"references", std::string(cf::paper) + ", " + std::string(cf::paper_title)},
-      {"comment", cf::comment_of(metadata)},
+      {"references", std::string(paper) + ", " + std::string(paper_title)},
+      {"comment", comment_of(metadata)},
       {"version", metadata.version},
       {"warnings", warnings},
       {"scenario", metadata.scenario_text},
@@ -260,36 +240,25 @@ std::vector<Array> arrays_of(const output::Schedule& schedule, const std::vector
   return all;
 }
 
-std::size_t Array::size() const {
-  std::size_t size = 1;
-  for (const Dimension& dimension : dimensions) size *= dimension.size;
-  return size;
-}
-
-Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const RunMetadata& metadata) {
-  Defined defined;
+Dataset dataset_of(const std::vector<Array>& arrays, const RunMetadata& metadata, bool finished) {
+  Dataset file;
+  for (const auto& [name, value] : file_attributes(metadata))
+    file.attributes.emplace_back(name, clean_text(value, netcdf::longest_text));
+  file.attributes.emplace_back("finished", finished ? 1 : 0);
   for (const Array& array : arrays) {
-    std::vector<int> ids;
+    DatasetVariable variable{std::string(array.about.name), {}, array.values, attributes_of(array.about, metadata)};
     for (const Array::Dimension& dimension : array.dimensions) {
-      const auto [found, is_new] = defined.dimensions.try_emplace(dimension.name, 0);
-      if (is_new) found->second = file.dimension(std::string(dimension.name), dimension.size);
-      ids.push_back(found->second);
+      variable.dimensions.emplace_back(dimension.name);
+      const auto is_it = [&](const auto& known) { return known.first == dimension.name; };
+      if (std::none_of(file.dimensions.begin(), file.dimensions.end(), is_it))
+        file.dimensions.emplace_back(dimension.name, dimension.size);
     }
-    const int variable = cf::reals(file, array.about, ids, metadata);
-    for (const auto& [name, value] : array.attributes) file.attribute(variable, std::string(name), value);
-    if (!array.about.reason.empty()) file.fill_value(variable, none);
-    defined.variables.push_back(variable);
+    for (const auto& [name, value] : array.attributes)
+      variable.attributes.emplace_back(std::string(name), std::string(value));
+    if (!array.about.reason.empty()) variable.attributes.emplace_back("_FillValue", none);
+    file.variables.push_back(std::move(variable));
   }
-  return defined;
-}
-
-void write(netcdf::Writer& file, const Defined& defined, const std::vector<Array>& arrays) {
-  for (std::size_t i = 0; i < arrays.size(); ++i) {
-    const std::vector<double> values = arrays[i].values();
-    if (values.size() != arrays[i].size())
-      throw std::invalid_argument(std::string(arrays[i].about.name) + " has not as many values as its dimensions");
-    if (!values.empty()) file.write_all(defined.variables[i], values);
-  }
+  return file;
 }
 
 namespace {

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <map>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -20,17 +19,6 @@
 #include "slipfront/lattice/plane/run.hpp"
 #include "slipfront/text/output/dislocation_paths.hpp"
 
-namespace slipfront::record::cf {
-
-/// Defines a variable of numbers and its attributes, in the units of `metadata`. Returns its id.
-int reals(netcdf::Writer& file, const Description& about, const std::vector<int>& dimensions,
-          const RunMetadata& metadata);
-
-/// Writes the attributes of the file. A scenario that no attribute can hold is cleaned and truncated.
-void describe_file(netcdf::Writer& file, const RunMetadata& metadata, bool finished);
-
-}  // namespace slipfront::record::cf
-
 namespace slipfront::record {
 
 struct Array {
@@ -42,8 +30,6 @@ struct Array {
   std::vector<Dimension> dimensions;
   std::function<std::vector<double>()> values;                            ///< row by row
   std::vector<std::pair<std::string_view, std::string_view>> attributes;  ///< further ones, by the CF conventions
-
-  std::size_t size() const;  ///< number of values
 };
 
 /// A coordinate: its name is that of its dimension.
@@ -91,23 +77,18 @@ std::function<std::vector<double>()> values_of(const Items& items, Get get) {
   };
 }
 
-/// The ids of dimensions by their names, and those of variables.
-struct Defined {
-  std::map<std::string_view, int> dimensions;
-  std::vector<int> variables;
-};
-Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const RunMetadata& metadata);
-/// Writes the values of arrays that `define` has defined.
-void write(netcdf::Writer& file, const Defined& defined, const std::vector<Array>& arrays);
+/// The attributes of a variable, in the units of `metadata`.
+Attributes attributes_of(const Description& about, const RunMetadata& metadata);
 
-/// Writes the file of a run, completely or not at all, with its saved state; an old file is unchanged if this fails.
-/// Equal arguments give files that are equal byte by byte, because a file holds neither date nor host. \throws
-/// FileError (one line: path and reason).
+/// The content of a file. A scenario that no attribute can hold is cleaned and truncated there.
+Dataset dataset_of(const std::vector<Array>& arrays, const RunMetadata& metadata, bool finished);
+
+/// Writes the file of a run with its saved state. A file holds neither date nor host. \throws as write_dataset.
 void write_run(const std::string& path, const RunMetadata& metadata, const std::vector<Array>& arrays,
                const std::string& state, bool finished);
 
 /// Writes the file of a comparison in the same way.
-void write_comparison(const std::string& path, const RunMetadata& metadata, std::vector<Array> arrays,
+void write_comparison(const std::string& path, const RunMetadata& metadata, const std::vector<Array>& arrays,
                       const std::vector<Level>& levels, bool finished);
 
 }  // namespace slipfront::record

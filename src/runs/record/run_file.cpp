@@ -72,42 +72,15 @@ const FieldVariable* holder(const std::vector<const FieldVariable*>& written, st
   return nullptr;
 }
 
-namespace {
-
-using netcdf::Writer;
-
-/// Defines a variable of bytes that mean nothing to anyone else.
-int opaque(Writer& file, const std::string& name, const std::string& long_name, std::size_t size) {
-  const int variable = file.bytes(name, {file.dimension(name + "_bytes", size)});
-  file.attribute(variable, "long_name", long_name);
-  file.attribute(variable, "units", "1");
-  file.attribute(variable, "references", "slipfront, src/runs/record");
-  return variable;
-}
-
-std::size_t bytes_of(const std::vector<Array>& arrays) {
-  std::size_t values = 0;
-  for (const Array& array : arrays) values += array.size();
-  return values * sizeof(double);
-}
-
-}  // namespace
-
 void write_run(const std::string& path, const RunMetadata& metadata, const std::vector<Array>& arrays,
                const std::string& state, bool finished) {
   const std::string& scenario = metadata.scenario_text;
-  const bool in_attribute = clean_text(scenario, netcdf::longest_text) == scenario;
-  write_netcdf(path, bytes_of(arrays) + state.size() + (1 << 16), [&](Writer& file) {
-    cf::describe_file(file, metadata, finished);
-    const Defined defined = define(file, arrays, metadata);
-    const int saved = opaque(file, layout::solver_state, "state of the run, to resume it", state.size());
-    const int text =
-        in_attribute ? -1 : opaque(file, layout::scenario_bytes, "the scenario, byte by byte", scenario.size());
-    file.end_definitions();
-    write(file, defined, arrays);
-    file.write(saved, state);
-    if (!in_attribute) file.write(text, scenario);
-  });
+  const Attributes by = {{"references", "slipfront, src/runs/record"}};
+  Dataset file = dataset_of(arrays, metadata, finished);
+  file.add_opaque(layout::solver_state, "state of the run, to resume it", state, by);
+  if (clean_text(scenario, netcdf::longest_text) != scenario)  // else its attribute has every byte
+    file.add_opaque(layout::scenario_bytes, "the scenario, byte by byte", scenario, by);
+  write_dataset(path, file);
 }
 
 std::vector<std::string> pulse_variables() {
@@ -116,24 +89,17 @@ std::vector<std::string> pulse_variables() {
   return names;
 }
 
-void write_comparison(const std::string& path, const RunMetadata& metadata, std::vector<Array> arrays,
+void write_comparison(const std::string& path, const RunMetadata& metadata, const std::vector<Array>& arrays,
                       const std::vector<Level>& levels, bool finished) {
-  std::size_t width = 1;  // names are rows of equal length: what CF calls a label
-  for (const Level& level : levels) width = std::max(width, level.name.size());
-  std::string names;
-  for (const Level& level : levels) names.append(level.name).append(width - level.name.size(), '\0');
-  for (Array& array : arrays)
-    if (array.dimensions.front().name == "level" && array.dimensions.size() > 1)
-      array.attributes.emplace_back("coordinates", "name scale");
-  write_netcdf(path, bytes_of(arrays), [&](Writer& file) {
-    cf::describe_file(file, metadata, finished);
-    const Defined defined = define(file, arrays, metadata);
-    const int name = file.characters("name", {defined.dimensions.at("level"), file.dimension("letters", width)});
-    file.attribute(name, "long_name", "level of theory");
-    file.end_definitions();
-    if (!levels.empty()) file.write_all(name, names);  // a dimension of size 0 is an unlimited one
-    write(file, defined, arrays);
-  });
+  Dataset file = dataset_of(arrays, metadata, finished);
+  for (DatasetVariable& variable : file.variables)
+    if (variable.dimensions.front() == "level" && variable.dimensions.size() > 1)
+      variable.attributes.emplace_back("coordinates", "name scale");
+  std::vector<std::string> names;
+  names.reserve(levels.size());
+  for (const Level& level : levels) names.push_back(level.name);
+  file.variables.push_back({"name", {"level"}, names, {{"long_name", "level of theory"}}});
+  write_dataset(path, file);
 }
 
 }  // namespace slipfront::record

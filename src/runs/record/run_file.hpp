@@ -20,7 +20,7 @@
 namespace slipfront::record {
 
 /// Values of the attribute slipfront_format. Increase a number when old readers would fail.
-inline constexpr const char *pulse_format = "pulse 2", *plane_format = "plane 2", *comparison_format = "comparison 1";
+inline constexpr const char *pulse_format = "pulse 2", *plane_format = "plane 2", *comparison_format = "comparison 2";
 
 /// The content of the file of a run in addition to its arrays and its state.
 struct RunMetadata {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "events/results/columns.hpp"
 #include "events/results/evaluate.hpp"
+#include "math/constants.hpp"
 #include "runs/record/arrays.hpp"
 #include "runs/record/events/event_groups.hpp"
 #include "runs/record/netcdf/netcdf.hpp"
@@ -19,76 +19,35 @@ namespace slipfront::record {
 namespace {
 
 using catalogue::Decade;
-using netcdf::Writer;
 using results::EventResult;
 
 using Results = std::span<const EventResult>;
 
-/// Collects variables and their values. It writes the values after all variables are defined.
-class Contents {
- public:
-  explicit Contents(Writer& file) : file_(file) {}
+using event_layout::number;
+using event_layout::text;
 
-  int reals(const results::NumberColumn& about, const std::vector<int>& dimensions, std::vector<double> values) {
-    const int id = file_.reals(about.name, dimensions);
-    file_.attribute(id, "long_name", about.long_name);
-    file_.attribute(id, "units", about.unit);
-    if (!about.reference.empty()) {
-      file_.attribute(id, "dimensional_unit", about.dimensional_unit);
-      file_.attribute(id, "references", reference_of({{}, {}, {}, about.reference}));
-    }
-    file_.fill_value(id, none);
-    numbers_.emplace_back(id, std::move(values));
-    return id;
-  }
-
-  void texts(std::string_view name, std::string_view long_name, int dimension, std::vector<std::string> values) {
-    const int id = file_.strings(std::string(name), {dimension});
-    file_.attribute(id, "long_name", long_name);
-    for (std::string& value : values) value = clean_text(value, netcdf::longest_text);
-    texts_.emplace_back(id, std::move(values));
-  }
-
-  void write() {
-    for (const auto& [id, values] : numbers_)
-      if (!values.empty()) file_.write_all(id, values);  // NetCDF makes a dimension of size 0 unlimited
-    for (const auto& [id, values] : texts_)
-      if (!values.empty()) file_.write_all(id, values);
-  }
-
- private:
-  Writer& file_;
-  std::vector<std::pair<int, std::vector<double>>> numbers_;
-  std::vector<std::pair<int, std::vector<std::string>>> texts_;
-};
-
-struct Dimensions {
-  int event, bound, quantile, draw;
-};
-
-Dimensions axes(Writer& file, Contents& contents, std::size_t events, std::size_t draws) {
-  const Dimensions d{file.dimension("event", events), file.dimension("bound", 2), file.dimension("quantile", 3),
-                     draws > 0 ? file.dimension("draw", draws) : 0};
-  contents.texts("bound", "ends of an interval", d.bound, {"5 %", "95 %"});
-  contents.reals({"quantile", "share of the values below", "1", "", "", results::Axis::none, 1, {}}, {d.quantile},
-                 {0.05, 0.5, 0.95});
-  return d;
+void add_axes(Dataset& file, std::size_t events, std::size_t draws) {
+  file.dimensions = {{"event", events}, {"bound", 2}, {"quantile", 3}};
+  if (draws > 0) file.dimensions.emplace_back("draw", draws);
+  file.variables = {text("bound", "ends of an interval", "bound", {"5 %", "95 %"}),
+                    number({"quantile", "share of the values below", "1", "", "", results::Axis::none, 1, {}},
+                           {"quantile"}, std::vector{0.05, 0.5, 0.95})};
 }
 
-void add_events(Contents& contents, const Dimensions& d, Results results, const results::ColumnChoice& choice) {
+void add_events(Dataset& file, Results results, const results::ColumnChoice& choice) {
   for (const results::NumberColumn& column : results::number_columns(choice)) {
     std::vector<double> values(results.size() * column.count);
     for (std::size_t i = 0; i < results.size(); ++i) column.get(results[i], &values[i * column.count]);
-    std::vector<int> dimensions = {d.event};
-    if (column.axis == results::Axis::bound) dimensions.push_back(d.bound);
-    if (column.axis == results::Axis::quantile) dimensions.push_back(d.quantile);
-    if (column.axis == results::Axis::draw) dimensions.push_back(d.draw);
-    contents.reals(column, dimensions, std::move(values));
+    std::vector<std::string> dimensions = {"event"};
+    if (column.axis == results::Axis::bound) dimensions.emplace_back("bound");
+    if (column.axis == results::Axis::quantile) dimensions.emplace_back("quantile");
+    if (column.axis == results::Axis::draw) dimensions.emplace_back("draw");
+    file.variables.push_back(number(column, dimensions, std::move(values)));
   }
   for (const results::TextColumn& column : results::text_columns(choice.pulse)) {
     std::vector<std::string> values;
     for (const EventResult& r : results) values.push_back(column.get(r));
-    contents.texts(column.name, column.long_name, d.event, std::move(values));
+    file.variables.push_back(text(column.name, column.long_name, "event", values));
   }
 }
 
@@ -98,9 +57,10 @@ std::string in_one_line(const std::vector<std::string>& titles) {
   return all;
 }
 
-void describe_file(Writer& file, const EventMetadata& metadata, bool finished) {
+Attributes attributes_of(const EventMetadata& metadata, bool finished) {
+  Attributes all;
   const auto say = [&](const std::string& name, std::string_view text) {
-    file.attribute(Writer::global, name, clean_text(text, netcdf::longest_text));
+    all.emplace_back(name, clean_text(text, netcdf::longest_text));
   };
   for (const auto& [name, text] : file_attributes({.format = event_format,
                                   .title = "Observed events",
@@ -110,45 +70,27 @@ void describe_file(Writer& file, const EventMetadata& metadata, bool finished) {
     if (name != "scenario" && name != "comment") say(name, text);
   say("comment",
       "Variables in units of 1 are dimensionless. Multiply them by dimensional_unit, where A is the contact ratio, c "
-      "the "
-      "speed of strain waves and mu the shear modulus. Values that are not known are NaN.");
+      "the speed of strain waves and mu the shear modulus. Values that are not known are NaN.");
   for (const auto& [name, text] : metadata.settings) say(name, text);
   say("ignored_columns", in_one_line(metadata.ignored_columns));
   say("ignored_quantities", in_one_line(metadata.ignored_quantities));
-  file.attribute(Writer::global, "finished", finished ? 1 : 0);
-}
-
-/// Fills the whole file. `state` holds the results from which an interrupted run resumes.
-void fill(Writer& file, const EventMetadata& metadata, Results results, const std::vector<Decade>& population,
-          bool finished, const std::string& state) {
-  describe_file(file, metadata, finished);
-  Contents contents(file);
-  const Dimensions d = axes(file, contents, results.size(), metadata.columns.draws);
-  add_events(contents, d, results, metadata.columns);
-  for (auto& [about, dimensions, values] : event_layout::population_variables(file, population, d.quantile))
-    if (const int id = contents.reals(about, dimensions, std::move(values)); about.name == "decade")
-      file.attribute(id, "bounds", "decade_bounds");
-  const int done =
-      file.bytes(event_layout::state, {file.dimension(std::string(event_layout::state) + "_bytes", state.size())});
-  file.attribute(done, "long_name", "results of the finished events, from which a run resumes");
-  file.attribute(done, "units", "1");
-  std::optional<EventGroups> groups;
-  if (metadata.columns.draws > 0) groups.emplace(file, metadata.version, results, metadata.columns.draws);
-  file.end_definitions();
-  contents.write();
-  file.write(done, state);
-  if (groups) groups->write();
+  all.emplace_back("finished", finished ? 1 : 0);
+  return all;
 }
 
 }  // namespace
 
 void write_events(const std::string& path, const EventMetadata& metadata, Results results,
                   const std::vector<Decade>& population, bool finished) {
-  const std::string state = results::serialize(results);
-  const std::size_t size =
-      state.size() + results.size() * (1700 + metadata.columns.draws * 8 * (3 * inference::quantities().size() + 7)) +
-      (1 << 16);
-  write_netcdf(path, size, [&](Writer& file) { fill(file, metadata, results, population, finished, state); });
+  Dataset file{.attributes = attributes_of(metadata, finished)};
+  add_axes(file, results.size(), metadata.columns.draws);
+  add_events(file, results, metadata.columns);
+  event_layout::add_population(file, population);
+  file.add_opaque(event_layout::state, "results of the finished events, from which a run resumes",
+                  results::serialize(results));
+  if (metadata.columns.draws > 0)
+    file.groups = event_layout::groups_of(results, metadata.version, metadata.columns.draws);
+  write_dataset(path, file);
 }
 
 std::string checksum_of_inputs(const std::string& before, std::string_view name, std::string_view content) {
@@ -216,7 +158,7 @@ std::vector<double> each(const std::vector<Row>& rows, Get&& get) {
 }
 
 /// Adds the quantiles of each quantity over the events of a decade, and the number of events in which it is known.
-void add_quantities(const std::vector<Decade>& population, int decade, int quantile, std::vector<Variable>& all) {
+void add_quantities(Dataset& file, const std::vector<Decade>& population) {
   std::size_t i = 0;
   for (const Description& about : results::population_quantities()) {
     const std::string name = "population_" + std::string(about.name);
@@ -225,57 +167,74 @@ void add_quantities(const std::vector<Decade>& population, int decade, int quant
       const catalogue::Quantiles& q = d.spread[i].of;
       values.insert(values.end(), {q.low, q.median, q.high});
     }
-    all.push_back({described(name, "quantiles over the events of a decade: " + std::string(about.long_name),
-                             about.dimensional_unit, about.reference, results::unit_of(about)),
-                   {decade, quantile},
-                   values});
-    all.push_back({described(name + "_events",
-                             "number of events in which this is known: " + std::string(about.long_name), "", ""),
-                   {decade},
-                   each(population, [&](const Decade& d) { return d.spread[i].events; })});
+    file.variables.push_back(
+        number(described(name, "quantiles over the events of a decade: " + std::string(about.long_name),
+                         about.dimensional_unit, about.reference, results::unit_of(about)),
+               {"decade", "quantile"}, values));
+    file.variables.push_back(number(
+        described(name + "_events", "number of events in which this is known: " + std::string(about.long_name), "", ""),
+        {"decade"}, each(population, [&](const Decade& d) { return d.spread[i].events; })));
     ++i;
   }
 }
 
 }  // namespace
 
-std::vector<Variable> population_variables(netcdf::Writer& file, const std::vector<Decade>& population, int quantile) {
+DatasetVariable number(const NumberColumn& about, const std::vector<std::string>& dimensions,
+                       decltype(DatasetVariable::values) values) {
+  DatasetVariable variable{about.name, dimensions, std::move(values)};
+  variable.attributes = {{"long_name", about.long_name}, {"units", std::string(about.unit)}};
+  if (!about.reference.empty()) {
+    variable.attributes.emplace_back("dimensional_unit", std::string(about.dimensional_unit));
+    variable.attributes.emplace_back("references", reference_of({{}, {}, {}, about.reference}));
+  }
+  variable.attributes.emplace_back("_FillValue", none);
+  return variable;
+}
+
+DatasetVariable text(std::string_view name, std::string_view long_name, const std::string& dimension,
+                     const std::vector<std::string>& values) {
+  std::vector<std::string> clean;
+  clean.reserve(values.size());
+  for (const std::string& value : values) clean.push_back(clean_text(value, netcdf::longest_text));
+  return {std::string(name), {dimension}, std::move(clean), {{"long_name", std::string(long_name)}}};
+}
+
+void add_population(Dataset& file, const std::vector<Decade>& population) {
   constexpr std::string_view closed_form = "Eqs. 8-10";
   const auto line = catalogue::line_through(population);
-  const int decade = file.dimension("decade", population.size()), ends = file.dimension("ends", 2),
-            point = file.dimension("line_point", line.size());
-  std::vector<Variable> all;
-  all.push_back({described("decade", "rupture velocity in the middle of a decade", "c", closed_form),
-                 {decade},
-                 each(population, [](const Decade& d) { return d.middle; })});
+  file.dimensions.emplace_back("decade", population.size());
+  file.dimensions.emplace_back("ends", 2);
+  file.dimensions.emplace_back("line_point", line.size());
   std::vector<double> bounds;
   for (const Decade& d : population) bounds.insert(bounds.end(), {d.low, d.high});
-  all.push_back({described("decade_bounds", "ends of a decade; the upper end is excluded", "c", closed_form),
-                 {decade, ends},
-                 bounds});
-  all.push_back({described("population_events", "number of events with a rupture velocity in this decade", "", ""),
-                 {decade},
-                 each(population, [](const Decade& d) { return d.events; })});
-  all.push_back({described("population_closed_form_stress", "stress of the closed form in the middle of the decade",
-                           "mu A / pi", closed_form),
-                 {decade},
-                 each(population, [](const Decade& d) { return d.stress; })});
-  all.push_back({described("population_closed_form_slip_velocity",
-                           "W(0) of the closed form in the middle of the decade", "c A / pi", closed_form),
-                 {decade},
-                 each(population, [](const Decade& d) { return d.slip_velocity; })});
-  add_quantities(population, decade, quantile, all);
+  const auto add = [&](const NumberColumn& about, const auto& get) {
+    file.variables.push_back(number(about, {"decade"}, each(population, get)));
+  };
+  add(described("decade", "rupture velocity in the middle of a decade", "c", closed_form),
+      [](const Decade& d) { return d.middle; });
+  file.variables.back().attributes.emplace_back("bounds", "decade_bounds");
+  file.variables.push_back(
+      number(described("decade_bounds", "ends of a decade; the upper end is excluded", "c", closed_form),
+             {"decade", "ends"}, bounds));
+  add(described("population_events", "number of events with a rupture velocity in this decade", "", ""),
+      [](const Decade& d) { return d.events; });
+  add(described("population_closed_form_stress", "stress of the closed form in the middle of the decade", "mu A / pi",
+                closed_form),
+      [](const Decade& d) { return d.stress; });
+  add(described("population_closed_form_slip_velocity", "W(0) of the closed form in the middle of the decade",
+                "c A / pi", closed_form),
+      [](const Decade& d) { return d.slip_velocity; });
+  add_quantities(file, population);
   using catalogue::LinePoint;
-  all.push_back({described("line_rupture_velocity", "closed form: rupture velocity", "c", closed_form),
-                 {point},
-                 each(line, [](const LinePoint& p) { return p.rupture_velocity; })});
-  all.push_back({described("line_stress", "closed form: stress", "mu A / pi", closed_form),
-                 {point},
-                 each(line, [](const LinePoint& p) { return p.stress; })});
-  all.push_back({described("line_slip_velocity", "closed form: slip velocity W(0)", "c A / pi", closed_form),
-                 {point},
-                 each(line, [](const LinePoint& p) { return p.slip_velocity; })});
-  return all;
+  const auto add_line = [&](const NumberColumn& about, double LinePoint::*value) {
+    file.variables.push_back(number(about, {"line_point"}, each(line, [&](const LinePoint& p) { return p.*value; })));
+  };
+  add_line(described("line_rupture_velocity", "closed form: rupture velocity", "c", closed_form),
+           &LinePoint::rupture_velocity);
+  add_line(described("line_stress", "closed form: stress", "mu A / pi", closed_form), &LinePoint::stress);
+  add_line(described("line_slip_velocity", "closed form: slip velocity W(0)", "c A / pi", closed_form),
+           &LinePoint::slip_velocity);
 }
 
 }  // namespace slipfront::record::event_layout

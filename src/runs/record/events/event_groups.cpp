@@ -7,22 +7,21 @@
 #include <string_view>
 
 #include "events/results/columns.hpp"
+#include "math/constants.hpp"
 #include "math/digits.hpp"
 #include "runs/record/arrays.hpp"
 #include "runs/record/events/event_file.hpp"
 #include "system/files/whole_file.hpp"
 
-namespace slipfront::record {
+namespace slipfront::record::event_layout {
+namespace {
 
 using inference::FaultState;
 using inference::observed_quantities;
 using inference::ObservedQuantity;
 using inference::Posterior;
-using netcdf::Writer;
 using results::EventResult;
 using results::NumberColumn;
-
-namespace {
 
 constexpr std::string_view resampled =
     "Samples of importance sampling at points of a Sobol sequence, resampled systematically to states of equal weight. "
@@ -32,129 +31,127 @@ NumberColumn described(std::string_view name, std::string_view long_name, std::s
   return {std::string(name), std::string(long_name), unit, "", "", results::Axis::none, 1, {}};
 }
 
-int define(Writer& file, const NumberColumn& about, const std::vector<int>& dimensions) {
-  const int id = file.reals(about.name, dimensions);
-  file.attribute(id, "long_name", about.long_name);
-  file.attribute(id, "units", about.unit);
-  if (!about.reference.empty()) {
-    file.attribute(id, "dimensional_unit", about.dimensional_unit);
-    file.attribute(id, "references", reference_of({{}, {}, {}, about.reference}));
+/// The groups of one file.
+class Groups {
+ public:
+  Groups(std::span<const EventResult> results, const std::string& version, std::size_t draws)
+      : results_(results), version_(version), draws_(draws) {}
+
+  Dataset states(const std::string& name, std::string_view about, std::vector<FaultState> Posterior::*states) const {
+    Dataset group = begun(name, about, true);
+    for (const inference::Quantity& q : inference::quantities()) {
+      NumberColumn column = described(q.about.name, q.about.long_name, results::unit_of(q.about));
+      column.dimensional_unit = q.about.dimensional_unit;
+      column.reference = q.about.reference;
+      add_draws(group, column, [states, value = q.state](const EventResult& r, std::size_t i) {
+        return r.posterior && i < ((*r.posterior).*states).size() ? ((*r.posterior).*states)[i].*value : none;
+      });
+    }
+    return group;
   }
-  file.fill_value(id, none);
-  return id;
-}
+
+  Dataset repeated() const {
+    Dataset group = begun("posterior_predictive",
+                          "A repeated observation of each state of the group posterior, with the error of the "
+                          "observation.",
+                          true);
+    for (const ObservedQuantity& q : observed_quantities())
+      add_draws(group, described(q.name, "repeated observation of: " + std::string(q.long_name), q.unit),
+                [position = inference::position_of(q.name)](const EventResult& r, std::size_t i) {
+                  return r.posterior && i < r.posterior->repeated.size() ? r.posterior->repeated[i][position] : none;
+                });
+    return group;
+  }
+
+  Dataset observed() const {
+    Dataset group = begun("observed_data", "The middles of the observed numbers.", false);
+    for (const ObservedQuantity& q : observed_quantities())
+      add_events(group, described(q.name, "observed " + std::string(q.long_name), q.unit),
+                 [position = inference::position_of(q.name)](const EventResult& r) {
+                   return inference::observed_values(r.observation)[position];
+                 });
+    return group;
+  }
+
+  Dataset statistics() const {
+    Dataset group = begun("sample_stats", "Diagnostics of the importance sampling of each event.", false);
+    const auto add = [&](std::string_view name, std::string_view long_name, double (*get)(const Posterior&)) {
+      add_events(group, described(name, long_name, "1"),
+                 [get](const EventResult& r) { return r.posterior ? get(*r.posterior) : none; });
+    };
+    add("effective_samples", "effective number of samples before resampling",
+        [](const Posterior& p) { return p.effective_samples; });
+    add("pareto_k", "shape of the tail of the weights: above 0.7 no draws",
+        [](const Posterior& p) { return p.pareto_k; });
+    add("samples", "samples before resampling", [](const Posterior& p) { return static_cast<double>(p.samples); });
+    return group;
+  }
+
+ private:
+  Dataset begun(const std::string& name, std::string_view about, bool has_draws) const {
+    Dataset group{.name = name};
+    group.attributes = {{"slipfront_format", event_format},
+                        {"inference_library", "slipfront"},
+                        {"inference_library_version", version_},
+                        {"comment", std::string(about)},
+                        {"coordinates", "event_name"}};
+    const auto add_axis = [&](const char* title, std::size_t size) {
+      std::vector<std::int64_t> positions(size);
+      std::iota(positions.begin(), positions.end(), 0);
+      group.dimensions.emplace_back(title, size);
+      group.variables.push_back({title, {title}, std::move(positions)});
+    };
+    if (has_draws) add_axis("chain", 1), add_axis("draw", draws_);
+    add_axis("event", results_.size());
+    std::vector<std::string> names;
+    for (const EventResult& r : results_) names.push_back(r.observation.name);
+    group.variables.push_back(text("event_name", "name of the event", "event", names));
+    return group;
+  }
+
+  /// Adds a variable over chain, draw and event, unless it has no values.
+  template <class Get>
+  void add_draws(Dataset& group, const NumberColumn& about, const Get& get) const {
+    // The first draw decides, because the draws of an event have the same quantities.
+    const auto is_unknown = [&](const EventResult& r) { return std::isnan(get(r, 0)); };
+    if (std::all_of(results_.begin(), results_.end(), is_unknown)) return;
+    const auto values = [results = results_, draws = draws_, get] {
+      std::vector<double> all;
+      all.reserve(draws * results.size());
+      for (std::size_t i = 0; i < draws; ++i)
+        for (const EventResult& r : results) all.push_back(get(r, i));
+      return all;
+    };
+    group.variables.push_back(number(about, {"chain", "draw", "event"}, values));
+  }
+
+  /// Adds a variable over event, unless it has no values.
+  template <class Get>
+  void add_events(Dataset& group, const NumberColumn& about, const Get& get) const {
+    std::vector<double> values;
+    for (const EventResult& r : results_) values.push_back(get(r));
+    if (std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); })) return;
+    group.variables.push_back(number(about, {"event"}, std::move(values)));
+  }
+
+  std::span<const EventResult> results_;
+  const std::string& version_;
+  std::size_t draws_;
+};
 
 }  // namespace
 
-EventGroups::EventGroups(const Writer& file, const std::string& version, std::span<const EventResult> results,
-                         std::size_t draws)
-    : version_(version), results_(results), draws_(draws) {
-  add_states(add_group(file, "posterior", resampled, true), &Posterior::draws);
-  add_states(add_group(file, "prior", "States drawn from the prior, at points of a Sobol sequence.", true),
-             &Posterior::prior_draws);
-  add_repeated(add_group(
-      file, "posterior_predictive",
-      "A repeated observation of each state of the group posterior, with the error of the observation.", true));
-  add_observed(add_group(file, "observed_data", "The middles of the observed numbers.", false));
-  add_statistics(add_group(file, "sample_stats", "Diagnostics of the importance sampling of each event.", false));
+std::vector<Dataset> groups_of(std::span<const EventResult> results, const std::string& version, std::size_t draws) {
+  const Groups groups(results, version, draws);
+  return {
+      groups.states("posterior", resampled, &Posterior::draws),
+      groups.states("prior", "States drawn from the prior, at points of a Sobol sequence.", &Posterior::prior_draws),
+      groups.repeated(), groups.observed(), groups.statistics()};
 }
 
-EventGroups::Group& EventGroups::add_group(const Writer& file, const std::string& name, std::string_view about,
-                                           bool has_draws) {
-  Group& g = groups_.emplace_back(file, name);
-  g.file.attribute(Writer::global, "slipfront_format", std::string_view(event_format));
-  g.file.attribute(Writer::global, "inference_library", std::string_view("slipfront"));
-  g.file.attribute(Writer::global, "inference_library_version", std::string_view(version_));
-  g.file.attribute(Writer::global, "comment", about);
-  g.file.attribute(Writer::global, "coordinates", std::string_view("event_name"));
-  const auto axis = [&](const char* title, std::size_t size) {
-    const int dimension = g.file.dimension(title, size);
-    std::vector<std::int64_t> positions(size);
-    std::iota(positions.begin(), positions.end(), 0);
-    g.positions.emplace_back(g.file.integers(title, {dimension}), std::move(positions));
-    return dimension;
-  };
-  if (has_draws) g.chain = axis("chain", 1), g.draw = axis("draw", draws_);
-  g.event = axis("event", results_.size());
-  g.names = g.file.strings("event_name", {g.event});
-  g.file.attribute(g.names, "long_name", std::string_view("name of the event"));
-  return g;
-}
+}  // namespace slipfront::record::event_layout
 
-void EventGroups::add_draws(Group& group, const NumberColumn& about,
-                            const std::function<double(const Result&, std::size_t)>& get) {
-  // The first draw decides, because the draws of an event have the same quantities.
-  if (std::all_of(results_.begin(), results_.end(), [&](const Result& r) { return std::isnan(get(r, 0)); })) return;
-  const auto values = [this, get] {
-    std::vector<double> all;
-    all.reserve(draws_ * results_.size());
-    for (std::size_t i = 0; i < draws_; ++i)
-      for (const Result& r : results_) all.push_back(get(r, i));
-    return all;
-  };
-  group.numbers.emplace_back(define(group.file, about, {group.chain, group.draw, group.event}), values);
-}
-
-void EventGroups::add_events(Group& group, const NumberColumn& about, const std::function<double(const Result&)>& get) {
-  if (std::all_of(results_.begin(), results_.end(), [&](const Result& r) { return std::isnan(get(r)); })) return;
-  const auto values = [this, get] {
-    std::vector<double> all;
-    for (const Result& r : results_) all.push_back(get(r));
-    return all;
-  };
-  group.numbers.emplace_back(define(group.file, about, {group.event}), values);
-}
-
-void EventGroups::add_states(Group& group, std::vector<FaultState> Posterior::*states) {
-  for (const inference::Quantity& q : inference::quantities()) {
-    NumberColumn about = described(q.about.name, q.about.long_name, results::unit_of(q.about));
-    about.dimensional_unit = q.about.dimensional_unit;
-    about.reference = q.about.reference;
-    add_draws(group, about, [states, value = q.state](const Result& r, std::size_t i) {
-      return r.posterior && i < ((*r.posterior).*states).size() ? ((*r.posterior).*states)[i].*value : none;
-    });
-  }
-}
-
-void EventGroups::add_repeated(Group& group) {
-  for (const ObservedQuantity& q : observed_quantities())
-    add_draws(group, described(q.name, "repeated observation of: " + std::string(q.long_name), q.unit),
-              [position = inference::position_of(q.name)](const Result& r, std::size_t i) {
-                return r.posterior && i < r.posterior->repeated.size() ? r.posterior->repeated[i][position] : none;
-              });
-}
-
-void EventGroups::add_observed(Group& group) {
-  for (const ObservedQuantity& q : observed_quantities())
-    add_events(group, described(q.name, "observed " + std::string(q.long_name), q.unit),
-               [position = inference::position_of(q.name)](const Result& r) {
-                 return inference::observed_values(r.observation)[position];
-               });
-}
-
-void EventGroups::add_statistics(Group& group) {
-  const auto add = [&](std::string_view name, std::string_view long_name, double (*get)(const Posterior&)) {
-    add_events(group, described(name, long_name, "1"),
-               [get](const Result& r) { return r.posterior ? get(*r.posterior) : none; });
-  };
-  add("effective_samples", "effective number of samples before resampling",
-      [](const Posterior& p) { return p.effective_samples; });
-  add("pareto_k", "shape of the tail of the weights: above 0.7 no draws",
-      [](const Posterior& p) { return p.pareto_k; });
-  add("samples", "samples before resampling", [](const Posterior& p) { return static_cast<double>(p.samples); });
-}
-
-void EventGroups::write() {
-  for (Group& g : groups_) {
-    for (const auto& [id, positions] : g.positions)
-      if (!positions.empty()) g.file.write_all(id, positions);
-    for (const auto& [id, values] : g.numbers) g.file.write_all(id, values());
-    std::vector<std::string> names;
-    for (const Result& r : results_) names.push_back(clean_text(r.observation.name, netcdf::longest_text));
-    if (!names.empty()) g.file.write_all(g.names, names);
-  }
-}
-
+namespace slipfront::record {
 namespace {
 
 using finite_fault::pulse_quantities;

@@ -6,75 +6,38 @@
 /// Writes events as CSV, in full precision and with the names of `slipfront event --json`. A quantity that cannot be
 /// identified has an empty cell.
 
-#include <cstdint>
-#include <deque>
-#include <functional>
-#include <limits>
 #include <span>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "events/catalogue/population.hpp"
 #include "events/results/columns.hpp"
 #include "events/results/evaluate.hpp"
-#include "math/constants.hpp"
 #include "runs/record/netcdf/netcdf.hpp"
 
 namespace slipfront::record::event_layout {
 
 inline constexpr const char* state = "done";
 
-/// A variable of numbers with its values. `about.get` is not used.
-struct Variable {
-  results::NumberColumn about;
-  std::vector<int> dimensions;
-  std::vector<double> values;
-};
+/// A variable of an event file. Unknown numbers are NaN.
+DatasetVariable number(const results::NumberColumn& about, const std::vector<std::string>& dimensions,
+                       decltype(DatasetVariable::values) values);
+DatasetVariable text(std::string_view name, std::string_view long_name, const std::string& dimension,
+                     const std::vector<std::string>& values);
 
-/// The variables of the decades of rupture velocity, with quantiles over the dimension `quantile` of the file. It also
-/// has the closed form over these decades, on a separate dimension.
-std::vector<Variable> population_variables(netcdf::Writer& file, const std::vector<catalogue::Decade>& population,
-                                           int quantile);
+/// Adds the variables of the decades of rupture velocity, with quantiles over the dimension "quantile", and the closed
+/// form over these decades, on a separate dimension.
+void add_population(Dataset& file, const std::vector<catalogue::Decade>& population);
+
+/// The groups of draws. They refer to `results`. A variable that is NaN for all events is left out, because ArviZ
+/// cannot plot it.
+std::vector<Dataset> groups_of(std::span<const results::EventResult> results, const std::string& version,
+                               std::size_t draws);
 
 }  // namespace slipfront::record::event_layout
 
 namespace slipfront::record {
-
-/// Defines the groups when it is made, and writes their values after the definitions of the file have ended. Its
-/// arguments must outlive it. A variable that is NaN for all events is left out, because ArviZ cannot plot it.
-class EventGroups {
- public:
-  EventGroups(const netcdf::Writer& file, const std::string& version, std::span<const results::EventResult> results,
-              std::size_t draws);
-  void write();
-
- private:
-  using Result = results::EventResult;
-  struct Group {
-    Group(const netcdf::Writer& parent, const std::string& name) : file(parent, name) {}
-    netcdf::Writer file;
-    int chain = 0, draw = 0, event = 0;
-    std::vector<std::pair<int, std::function<std::vector<double>()>>> numbers = {};
-    std::vector<std::pair<int, std::vector<std::int64_t>>> positions = {};
-    int names = 0;
-  };
-
-  Group& add_group(const netcdf::Writer& file, const std::string& name, std::string_view about, bool has_draws);
-  void add_states(Group& group, std::vector<inference::FaultState> inference::Posterior::*states);
-  void add_repeated(Group& group);
-  void add_observed(Group& group);
-  void add_statistics(Group& group);
-  /// Adds a variable over chain, draw and event, unless it has no values.
-  void add_draws(Group& group, const results::NumberColumn& about,
-                 const std::function<double(const Result&, std::size_t)>& get);
-  void add_events(Group& group, const results::NumberColumn& about, const std::function<double(const Result&)>& get);
-
-  const std::string& version_;
-  std::span<const Result> results_;
-  std::size_t draws_;
-  std::deque<Group> groups_;
-};
 
 /// The line of titles, and the line of an event. With `with_pulse` they also have the columns that summarise a pulse
 /// through a finite-fault model.

@@ -11,7 +11,6 @@
 #include "events/finite_fault/source/source.hpp"
 #include "math/digits.hpp"
 #include "runs/record/netcdf/netcdf.hpp"
-#include "runs/record/netcdf/table_file.hpp"
 #include "system/files/whole_file.hpp"
 
 namespace slipfront::record {

@@ -4,9 +4,13 @@
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
+#include <algorithm>
 #include <cstring>
+#include <deque>
+#include <map>
 #include <new>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "slipfront/error.hpp"
@@ -116,10 +120,6 @@ int Writer::bytes(const std::string& name, const std::vector<int>& dimensions) {
   return variable(name, NC_UBYTE, dimensions);
 }
 
-int Writer::characters(const std::string& name, const std::vector<int>& dimensions) {
-  return variable(name, NC_CHAR, dimensions);
-}
-
 int Writer::strings(const std::string& name, const std::vector<int>& dimensions) {
   return variable(name, NC_STRING, dimensions);
 }
@@ -163,8 +163,6 @@ void Writer::attribute(int variable, const std::string& name, std::int64_t value
 void Writer::attribute(int variable, const std::string& name, double value) {
   put_attribute(variable, name, NC_DOUBLE, 1, bytes_of(value));
 }
-
-void Writer::fill_value(int variable, double value) { attribute(variable, "_FillValue", value); }
 
 void Writer::end_definitions() { require(nc_enddef(id_), "cannot be created"); }
 
@@ -218,11 +216,6 @@ void Writer::write_all(int variable, const std::vector<std::int64_t>& values) {
 void Writer::write_all(int variable, const std::vector<std::int8_t>& values) {
   const std::vector<std::size_t> size = shape(variable);
   put(variable, NC_BYTE, std::vector<std::size_t>(size.size()), size, values.data());
-}
-
-void Writer::write_all(int variable, std::string_view characters) {
-  const std::vector<std::size_t> size = shape(variable);
-  put(variable, NC_CHAR, std::vector<std::size_t>(size.size()), size, characters.data());
 }
 
 void Writer::write_all(int variable, const std::vector<std::string>& texts) {
@@ -384,11 +377,115 @@ std::string clean_text(std::string_view text, std::size_t most) {
   return clean;
 }
 
-void write_netcdf(const std::string& path, std::size_t expected_size,
-                  const std::function<void(netcdf::Writer&)>& fill) {
+void Dataset::add_opaque(const std::string& variable, const std::string& long_name, std::string bytes,
+                         Attributes further) {
+  const std::string dimension = variable + "_bytes";
+  dimensions.emplace_back(dimension, bytes.size());
+  Attributes about = {{"long_name", long_name}, {"units", "1"}};
+  about.insert(about.end(), further.begin(), further.end());
+  variables.push_back({variable, {dimension}, DatasetVariable::Opaque{std::move(bytes)}, std::move(about)});
+}
+
+namespace {
+
+using netcdf::Writer;
+using Opaque = DatasetVariable::Opaque;
+
+void add_attributes(Writer& file, int variable, const Attributes& attributes) {
+  for (const auto& [name, value] : attributes)
+    if (const auto* text = std::get_if<std::string>(&value))
+      file.attribute(variable, name, clean_text(*text, text->size()));
+    else if (const auto* whole = std::get_if<std::int64_t>(&value))
+      file.attribute(variable, name, *whole);
+    else if (const auto* real = std::get_if<double>(&value))
+      file.attribute(variable, name, *real);
+    else
+      file.attribute(variable, name, std::get<int>(value));
+}
+
+/// Defines a variable and returns its id.
+int defined(Writer& file, const DatasetVariable& variable, const std::vector<int>& dimensions) {
+  if (std::holds_alternative<Opaque>(variable.values)) return file.bytes(variable.name, dimensions);
+  if (std::holds_alternative<std::vector<std::string>>(variable.values)) return file.strings(variable.name, dimensions);
+  if (std::holds_alternative<std::vector<std::int64_t>>(variable.values))
+    return file.integers(variable.name, dimensions);
+  if (std::holds_alternative<std::vector<std::int8_t>>(variable.values))
+    return file.small_integers(variable.name, dimensions);
+  return file.reals(variable.name, dimensions);
+}
+
+/// The id of each variable of a file or group, which are defined and not written.
+std::vector<int> define(Writer& file, const Dataset& dataset) {
+  add_attributes(file, Writer::global, dataset.attributes);
+  std::map<std::string, int> dimensions;
+  for (const auto& [name, size] : dataset.dimensions) dimensions[name] = file.dimension(name, size);
+  std::vector<int> ids;
+  for (const DatasetVariable& variable : dataset.variables) {
+    std::vector<int> axes;
+    for (const std::string& name : variable.dimensions) axes.push_back(dimensions.at(name));
+    ids.push_back(defined(file, variable, axes));
+    add_attributes(file, ids.back(), variable.attributes);
+  }
+  return ids;
+}
+
+/// The number of values of a variable.
+std::size_t size_of(const Dataset& dataset, const DatasetVariable& variable) {
+  std::size_t size = 1;
+  for (const std::string& name : variable.dimensions) {
+    const auto is_it = [&](const auto& dimension) { return dimension.first == name; };
+    const auto found = std::find_if(dataset.dimensions.begin(), dataset.dimensions.end(), is_it);
+    if (found == dataset.dimensions.end()) throw std::invalid_argument("write_dataset: " + name + " is no dimension");
+    size *= found->second;
+  }
+  return size;
+}
+
+void write(Writer& file, const Dataset& dataset, const std::vector<int>& ids) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const DatasetVariable& variable = dataset.variables[i];
+    const auto put = [&](const auto& values) {
+      if (values.size() != size_of(dataset, variable))
+        throw std::invalid_argument("write_dataset: " + variable.name + " has not as many values as its dimensions");
+      if (values.empty()) return;  // a dimension of size 0 is an unlimited one
+      if constexpr (std::is_same_v<decltype(values), const Opaque&>)
+        file.write(ids[i], values.bytes);
+      else
+        file.write_all(ids[i], values);
+    };
+    const auto* const later = std::get_if<std::function<std::vector<double>()>>(&variable.values);
+    later ? put((*later)())
+          : std::visit(
+                [&](const auto& values) {
+                  if constexpr (!std::is_invocable_v<decltype(values)>) put(values);
+                },
+                variable.values);
+  }
+}
+
+/// About the number of bytes of a file, which need not be exact.
+std::size_t expected_size(const Dataset& dataset) {
+  std::size_t size = 1 << 16;
+  for (const DatasetVariable& variable : dataset.variables)
+    size += size_of(dataset, variable) * (std::holds_alternative<Opaque>(variable.values) ? 1 : sizeof(double));
+  for (const Dataset& group : dataset.groups) size += expected_size(group);
+  return size;
+}
+
+}  // namespace
+
+void write_dataset(const std::string& path, const Dataset& dataset) {
+  const std::size_t size = expected_size(dataset);  // checks all dimensions
   replace_file(path, [&](const Put& put) {
-    netcdf::Writer file(path, expected_size);
-    fill(file);
+    Writer file(path, size);
+    const std::vector<int> ids = define(file, dataset);
+    std::deque<Writer> groups;
+    std::vector<std::vector<int>> ids_of_groups;
+    for (const Dataset& group : dataset.groups)
+      ids_of_groups.push_back(define(groups.emplace_back(file, group.name), group));
+    file.end_definitions();
+    write(file, dataset, ids);
+    for (std::size_t i = 0; i < groups.size(); ++i) write(groups[i], dataset.groups[i], ids_of_groups[i]);
     const netcdf::Image image = file.finish();
     put(image.bytes());
     put(seal(image.bytes()));

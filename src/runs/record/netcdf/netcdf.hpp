@@ -13,6 +13,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace slipfront::record::netcdf {
@@ -83,14 +85,12 @@ class Writer : Handle {
   int integers(const std::string& name, const std::vector<int>& dimensions);        ///< 64 bits each
   int small_integers(const std::string& name, const std::vector<int>& dimensions);  ///< 8 bits each
   int bytes(const std::string& name, const std::vector<int>& dimensions);
-  int characters(const std::string& name, const std::vector<int>& dimensions);
   int strings(const std::string& name, const std::vector<int>& dimensions);
   /// Adds a text of any length. A text longer than `longest_text` must not contain NUL.
   void attribute(int variable, const std::string& name, std::string_view text);
   void attribute(int variable, const std::string& name, int value);
   void attribute(int variable, const std::string& name, std::int64_t value);
   void attribute(int variable, const std::string& name, double value);
-  void fill_value(int variable, double value);
   void end_definitions();
 
   void write(int variable, std::span<const double> values);
@@ -102,7 +102,6 @@ class Writer : Handle {
   void write_all(int variable, const std::vector<double>& values);
   void write_all(int variable, const std::vector<std::int64_t>& values);
   void write_all(int variable, const std::vector<std::int8_t>& values);
-  void write_all(int variable, std::string_view characters);
   void write_all(int variable, const std::vector<std::string>& texts);
 
   /// Closes the file, reads back all that was written, and compares the checksums. HDF5 can drop data silently when
@@ -167,8 +166,43 @@ namespace slipfront::record {
 /// between characters to at most `most` bytes.
 std::string clean_text(std::string_view text, std::size_t most);
 
-/// Writes a file that `fill` fills, with a seal (seal.hpp), completely or not at all. \throws FileError (one line: path
-/// and reason), std::bad_alloc.
-void write_netcdf(const std::string& path, std::size_t expected_size, const std::function<void(netcdf::Writer&)>& fill);
+using AttributeValue = std::variant<std::string, std::int64_t, double, int>;
+using Attributes = std::vector<std::pair<std::string, AttributeValue>>;
+
+struct DatasetVariable {
+  /// Bytes that mean nothing to other programs.
+  struct Opaque {
+    std::string bytes;
+    std::size_t size() const { return bytes.size(); }
+    bool empty() const { return bytes.empty(); }
+  };
+
+  std::string name;
+  std::vector<std::string> dimensions;
+  /// As many as the dimensions hold, the last dimension fastest. A function returns them when they are written.
+  std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::int8_t>, std::vector<std::string>,
+               Opaque, std::function<std::vector<double>()>>
+      values;
+  Attributes attributes = {};  ///< _FillValue is that of a variable of doubles
+};
+
+/// The content of a file or of a group in it.
+struct Dataset {
+  std::vector<std::pair<std::string, std::size_t>> dimensions = {};
+  std::vector<DatasetVariable> variables = {};
+  Attributes attributes = {};
+  std::string name = {};             ///< empty unless it is a group
+  std::vector<Dataset> groups = {};  ///< they have none of their own
+
+  /// Adds a variable of opaque bytes, with its dimension.
+  void add_opaque(const std::string& variable, const std::string& long_name, std::string bytes,
+                  Attributes further = {});
+};
+
+/// Writes `path` with a seal (seal.hpp), completely or not at all; an old file is unchanged if this fails. Equal
+/// arguments give files that are equal byte by byte. \throws FileError (one line: path and reason), std::bad_alloc,
+/// std::invalid_argument where a variable has not as many values as its dimensions say, or a dimension that is none of
+/// `dataset`.
+void write_dataset(const std::string& path, const Dataset& dataset);
 
 }  // namespace slipfront::record
