@@ -1,10 +1,10 @@
 // Makes the page: one HTML file that contains everything. Usage: node bundle.mjs ROOT WASM EVENTS OUT, with the checkout,
 // the folder of the module and the JSON of the published events.
 
+import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { basename, dirname } from 'node:path';
-import { gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
 import katex from 'katex';
 
@@ -59,7 +59,7 @@ const parts = {
     onLoad({ filter: /formulas\.json$/ }, ({ path }) => ({ contents: typeset(path), loader: 'json' }));
     onLoad({ filter: /events\.json$/ }, ({ path }) => ({ contents: rounded(path), loader: 'json' }));
     onLoad({ filter: /katex\.min\.css$/ }, ({ path }) => ({ contents: withFonts(path), loader: 'text' }));
-    onLoad({ filter: /\.wasm$/ }, ({ path }) => ({ contents: gzipSync(readFileSync(path), { level: 9 }).toString('base64'), loader: 'text' }));
+    onLoad({ filter: /\.wasm$/ }, ({ path }) => ({ contents: execFileSync('zopfli', ['-c', path], { maxBuffer: 1 << 24 }).toString('base64'), loader: 'text' }));
   },
 };
 
