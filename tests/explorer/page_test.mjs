@@ -11,7 +11,7 @@ import { gzipSync } from 'node:zlib';
 import { axe, browser, collisions, eventually, factOf, keepTexts, open, ready, type, url } from './browser.mjs';
 
 const calm = { reducedMotion: 'reduce' };
-const routes = ['#/', '#/pulse', '#/pulse?compare=1&si=1', '#/dislocations?beads=20', '#/stress?event=Parkfield+2004', '#/riemann', '#/licences', '#/loading', '#/loading?setup=edge&time.end=0.8', '#/plane?time.end=0.5', '#/plane?setup=barrier&time.end=1', '#/tour-is-none',
+const routes = ['#/', '#/pulse', '#/pulse?compare=1&si=1', '#/dislocations?beads=20', '#/stress?event=Parkfield+2004', '#/riemann', '#/licences', '#/loading', '#/loading?setup=edge&time.end=0.8', '#/loading?setup=asperity', '#/plane?time.end=0.5', '#/plane?setup=barrier&time.end=1', '#/tour-is-none',
   ...[2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12].map((fig) => `#/paper?fig=${fig}`)];
 
 async function violations(page) {
@@ -377,6 +377,17 @@ test('a rupture on a plane: the averages have a front, every line is followed, a
   await page.getByText('A barrier').click();
   await page.getByText('the averages', { exact: true }).click();
   await eventually(async () => assert.match(await page.locator('.command code').textContent(), /plane-barrier\.toml --set .*plane\.cells=100/));
+  assert.deepEqual(page.complaints, []);
+});
+
+test('an asperity between creeping ends repeats earthquakes, unless it strengthens nearly as much as it weakens', async () => {
+  const page = await open('#/loading?setup=asperity', calm);
+  await ready(page);
+  await eventually(async () => assert.match(await factOf(page, 'Slip events'), /^4, all of which stop inside/));
+  await page.getByRole('img', { name: /Slip velocity over position and time/ }).waitFor();
+  await type(page, 'b − a in the asperity', '0.002');
+  await page.getByText(/No slip event/).waitFor();
+  assert.match(await page.locator('.command code').textContent(), /friction\.direct_effect=0\.015 \+ 0\.005 - \(0\.002 \+ 0\.005\)/);
   assert.deepEqual(page.complaints, []);
 });
 

@@ -1,6 +1,7 @@
-/** Panel "Stick-slip": a block on a spring, and a block that is pushed at its edge, with rate-and-state friction, live. */
+/** Panel "Stick-slip": a block on a spring, a block that is pushed at its edge, and an asperity between creeping ends, live. */
 
 import { useEffect, useMemo, useRef } from 'preact/hooks';
+import asperityToml from '@cases/asperity.toml';
 import edgeToml from '@cases/precursors.toml';
 import blockToml from '@cases/laboratory-block.toml';
 import { csvOfEvents, crosses, median, type LoadedRun } from '../model/loading';
@@ -13,15 +14,17 @@ import { about, CannotRun, NumberField, Segments, sentence } from '../ui/fields'
 import { Film, filmHeight, filmWidth } from '../ui/film';
 import { inUnits, short } from '../ui/format';
 import { Data } from '../ui/picture/data';
+import { SpaceTime } from '../ui/picture/map';
 import { Plot } from '../ui/picture/plot';
 import { svgOf } from '../ui/picture/svg';
 import { makePlayer, reducedMotion, Transport } from '../ui/player';
 import { copy, save } from '../ui/save';
 import { paintBlocks } from './blocks';
-import { frontSpec, slipSpec, timeSpecs } from './loading_plots';
+import { frontSpec, slipSpec, timeSpecs, velocityMap } from './loading_plots';
 import { useLoading } from './use_loading';
 
 interface Control {
+  /** A key of the scenario; without a dot, a number of `further`. */
   key: string;
   label: string;
   /** As the program reads it; the field shows its letters. */
@@ -36,6 +39,8 @@ interface Setup {
   toml: string;
   text: string;
   controls: Control[];
+  /** Settings that follow from the controls without a dot in their key. */
+  further?: (valueOf: (key: string) => string) => string[];
 }
 
 const friction = (b: string, slip: string): Control[] => [
@@ -66,16 +71,34 @@ const setups: Record<string, Setup> = {
       { key: 'time.end', label: 'Until', unit: 's', value: '6', least: 0.5, most: 12 },
     ],
   },
+  asperity: {
+    name: 'Asperity on a fault', file: 'cases/asperity.toml', toml: asperityToml,
+    text: 'A fault of 60 km. In the middle third friction weakens with velocity, and earthquakes repeat there; outside it strengthens, and the fault creeps.',
+    controls: [
+      { key: 'inside', label: 'b − a in the asperity', unit: '', value: '0.005', least: 0.001, most: 0.014 },
+      { key: 'outside', label: 'a − b outside', unit: '', value: '0.005', least: 0.0005, most: 0.05 },
+      { key: 'friction.normal_stress', label: 'Normal stress', unit: 'MPa', value: '50', least: 10, most: 200 },
+      { key: 'friction.characteristic_slip', label: 'Characteristic slip D_c', unit: 'mm', value: '20', least: 8, most: 100 },
+      { key: 'loading.stiffness', label: 'Stiffness of the springs', unit: 'MPa/m', value: '1.5', least: 0.2, most: 10 },
+      { key: 'time.end', label: 'Until', unit: 'years', value: '475', least: 50, most: 1000 },
+    ],
+    further: (valueOf) => [
+      'chain.spacing=500 m',
+      `friction.direct_effect=0.015 + ${valueOf('outside')} - (${valueOf('inside')} + ${valueOf('outside')})*(tanh((x + 10e3)/1e3) - tanh((x - 10e3)/1e3))/2`,
+    ],
+  },
 };
 
 const player = makePlayer(1);
 
 /** The settings of the form, in the notation of the program's option `--set`. */
-const changesOf = ({ controls }: Setup) =>
-  controls.flatMap(({ key, unit, value }) => {
+const changesOf = ({ controls, further }: Setup) => {
+  const valueOf = (key: string) => route.value.params[key] || controls.find((control) => control.key === key)!.value;
+  return controls.filter(({ key }) => key.includes('.')).flatMap(({ key, unit, value }) => {
     const typed = route.value.params[key] ?? value;
     return typed === '' ? [] : [`${key}=${typed}${unit ? ` ${unit}` : ''}`];
-  });
+  }).concat(further?.(valueOf) ?? []);
+};
 
 function Facts({ run }: { run: LoadedRun }) {
   const whole = run.events.filter((event) => event.complete);
@@ -149,7 +172,9 @@ export function LoadingPanel() {
   }, [params.play, busy]);
   const at = run ? Math.round(player.at.value * (run.time.length - 1)) : 0;
   const specs = useMemo(() => run && timeSpecs(run, run.time[at]), [run, at]);
-  const fronts = useMemo(() => run && run.arrivals.length > 0 && [frontSpec(run), slipSpec(run)], [run?.begun, run?.events.length, run?.finished]);
+  const isFault = name === 'asperity';
+  const fronts = useMemo(() => run && run.events.length > 0 && [...(run.arrivals.length > 0 ? [frontSpec(run)] : []), ...(run.begun.x.length > 50 ? [slipSpec(run)] : [])], [run?.begun, run?.events.length, run?.finished]);
+  const map = useMemo(() => run && isFault && run.time.length > 1 && velocityMap(run), [run?.time.length, isFault]);
   const command = commandOf('chain', setup.file, changes.length ? ['--set', ...changes] : []);
   const film = (share: number) => {
     const i = Math.round(share * (run!.time.length - 1));
@@ -159,7 +184,7 @@ export function LoadingPanel() {
     <div class="panel">
       <Controls label="Scenario">
         <Segments label="Set-up" value={name} choices={Object.entries(setups).map(([value, one]) => ({ value, label: one.name }))}
-          onInput={(text) => setParams(Object.fromEntries([['setup', text], ['t', null], ...setups.block.controls.map(({ key }) => [key, null])]))} />
+          onInput={(text) => setParams(Object.fromEntries([['setup', text], ['t', null], ...Object.values(setups).flatMap(({ controls }) => controls).map(({ key }) => [key, null])]))} />
         <p class="hint">{setup.text}</p>
         {setup.controls.map(({ key, label, unit, value, least, most }) => (
           <NumberField key={`${name}${key}`} label={unit ? `${label}, in ${unit.replace('um', 'µm')}` : label} value={params[key] ?? value} least={least} most={most} log onInput={(text) => setParams({ [key]: text })}
@@ -179,11 +204,12 @@ export function LoadingPanel() {
           <div class={`results ${error ? 'stale' : ''}`}>
             <Facts run={run} />
             <Plot spec={specs[0]} height={220} />
-            <Blocks run={run} at={at} />
-            {run.finished && run.events.length === 0 && <p class="warnings">No slip event: {run.begun.stiffness_ratio !== null && run.begun.stiffness_ratio > 1 ? 'the spring is stiffer than the critical one, and the block slides steadily.' : 'the force has not reached the strength, or sliding is stable.'}</p>}
+            {map ? <SpaceTime field={map} height={300} onPick={(t) => { player.at.value = run.time.findIndex((time) => time >= t) / (run.time.length - 1); }} /> : <Blocks run={run} at={at} />}
+            {map && <figure class="plot"><figcaption>Slip events</figcaption><Events run={run} /></figure>}
+            {run.finished && run.events.length === 0 && <p class="warnings">No slip event: {run.begun.stiffness_ratio !== null && run.begun.stiffness_ratio > 1 ? 'the spring is stiffer than the critical one, and sliding is steady.' : 'the force has not reached the strength, or sliding is stable.'}</p>}
             <Plot spec={specs[1]} height={180} />
-            {fronts && <div class="two">{fronts.map((spec) => <Plot key={spec.name} spec={spec} height={240} />)}</div>}
-            <p class="hint">Play steps from result to result: they are dense while the block slips, and sparse while it sticks.</p>
+            {fronts && fronts.length > 0 && <div class="two">{fronts.map((spec) => <Plot key={spec.name} spec={spec} height={240} />)}</div>}
+            <p class="hint">Play steps from result to result: they are dense during slip, and sparse between events.</p>
             {run.finished && !error && <Film name="stick-slip" pictures={film} />}
             {run.begun.warnings.length > 0 && <ul class="warnings" aria-label="Warnings of the run">{run.begun.warnings.map((w) => <li>{w}</li>)}</ul>}
             <Equations names={['springs', 'block', 'critical']}><p>Here κ is the stiffness, and θ the age of the contacts. In a chain, its neighbours act on each block too.</p></Equations>

@@ -2,6 +2,7 @@
 
 import { crosses, type LoadedRun } from '../model/loading';
 import { bestUnit, type Kind } from '../ui/format';
+import type { Field } from '../ui/picture/map';
 import type { Path, Spec } from '../ui/picture/spec';
 
 function largest(values: ArrayLike<number>): number {
@@ -52,6 +53,28 @@ export function frontSpec(run: LoadedRun): Spec {
   return { name: 'fronts', title: 'Where the front of each event is', x: [], xLabel: 'time since the onset, in µs', yLabel: `position, in ${x.unit}`, series: [], paths, yRange: [0, x.values[x.values.length - 1] * 1.03] };
 }
 
+/** The slip velocity over x and t, in decades above that of the springs. A row has the fastest of the results in its time, so that events can be seen. */
+export function velocityMap(run: LoadedRun): Field {
+  const { x, velocity } = run.begun;
+  const [now, rows, least] = [run.time[run.time.length - 1], 240, -5];
+  const t = Array.from({ length: rows }, (_, j) => ((j + 0.5) / rows) * now);
+  const values = new Float64Array(rows * x.length).fill(least);
+  let from = 0;
+  t.forEach((_, j) => {
+    let to = from;
+    while (to + 1 < run.time.length && run.time[to + 1] <= ((j + 1) / rows) * now) ++to;
+    for (let k = from; k <= to; ++k)
+      for (let i = 0; i < x.length; ++i) values[j * x.length + i] = Math.max(values[j * x.length + i], Math.log10(Math.abs(run.velocity[k][i]) / velocity));
+    from = to;
+  });
+  const [xUnit, xSize] = bestUnit('length', largest(x));
+  const [tUnit, tSize] = bestUnit('time', run.begun.end);
+  return {
+    title: 'Slip velocity over position and time', name: 'velocity-map', x, t, values, tRange: [0, now], xLabel: `position, in ${xUnit}`, tLabel: `time, in ${tUnit}`,
+    label: 'decades above the velocity of the springs', xFactor: 1 / xSize, tFactor: 1 / tSize, factor: 1, reach: [least, Math.ceil(Math.log10(largest(run.speed) / velocity))], lines: [],
+  };
+}
+
 /** The slip along the chain at the onset of each event. */
 export function slipSpec(run: LoadedRun): Spec {
   const x = scaled('length', run.begun.x);
@@ -61,5 +84,5 @@ export function slipSpec(run: LoadedRun): Spec {
     const at = run.time.findIndex((time) => time >= event.onset + event.duration);
     return { x: x.values, y: Array.from(run.slip[at < 0 ? run.slip.length - 1 : at], (v) => v / slip.size), color: crosses(event, run) ? 'slip' : 'fast', width: 1.3 };
   });
-  return { name: 'slip', title: 'Slip along the block after each event', x: [], xLabel: `position, in ${x.unit}`, yLabel: `slip, in ${slip.unit}`, series: [], paths };
+  return { name: 'slip', title: 'Slip after each event', x: [], xLabel: `position, in ${x.unit}`, yLabel: `slip, in ${slip.unit}`, series: [], paths };
 }
