@@ -21,7 +21,7 @@ if pathlib.Path(__file__).with_name("extra").exists():  # the explorer is part o
     html_extra_path = ["extra"]
 root_doc = "index"
 # Sphinx-Gallery writes the pages of these folders to gallery/ and tutorials/, and a page with the times of their programs.
-exclude_patterns = ["docs/gallery", "docs/tutorials", "**/sg_execution_times.rst"]
+exclude_patterns = ["README.md", "docs/gallery", "docs/tutorials", "**/sg_execution_times.rst"]
 
 html_theme = "furo"
 html_title = "slipfront"

@@ -1,4 +1,5 @@
-"""Links from scenarios in the documentation to the explorer, which opens with the scenario."""
+"""Links from the documentation to the explorer, which opens with a scenario or at a panel."""
+import re
 import tomllib
 from urllib.parse import quote
 
@@ -22,10 +23,25 @@ def route_of(text: str) -> str | None:
     return "#/pulse?" + "&".join(f"{quote(key)}={quote(value)}" for key, value in values.items() if value)
 
 
+#: The addresses of the panels that pages of the gallery name at the end of a paragraph.
+PANELS = {"Pulse": "pulse", "Dislocations": "dislocations", "Stick-slip": "loading", "Fault plane": "plane",
+          "Riemann": "riemann", "Stress and velocity": "stress"}
+
+
 def add_links(app, doctree):
-    """Adds a link below each block with a scenario, and below the picture of the home page and of the explorer's page."""
+    """Adds a link below each block with a scenario, below the picture of the explorer's page, and to each panel that is
+    named. On the home page the explorer replaces the picture."""
     above = "../" * app.env.docname.count("/")
-    if app.env.docname in ("index", "docs/explorer"):
+    for paragraph in list(doctree.findall(nodes.paragraph)):
+        if named := re.search(r"in the explorer: panel ([\w -]+)\.$", paragraph.astext()):
+            address = f"{above}explorer/index.html#/{PANELS[named[1]]}"
+            paragraph += [nodes.Text(" "), nodes.reference("", "Open it", refuri=address)]
+    if app.env.docname == "index":
+        picture = next(iter(doctree.findall(nodes.image))).parent
+        live = ('<iframe class="explorer" src="explorer/index.html#/" loading="lazy" '
+                'title="The explorer: the theory live in your browser"></iframe>')
+        picture.replace_self([nodes.raw("", live, format="html")])
+    if app.env.docname == "docs/explorer":
         picture = next(iter(doctree.findall(nodes.image))).parent
         link = nodes.reference("", "Open the explorer: the theory live in your browser", refuri=f"{above}explorer/index.html")
         picture.parent.insert(picture.parent.index(picture) + 1, nodes.paragraph("", "", link))

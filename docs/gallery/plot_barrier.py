@@ -1,0 +1,12 @@
+"""
+A barrier stops a pulse
+=======================
+
+Where the contact ratio is larger, a dislocation has more energy. The pulse climbs the barrier as far
+as the dislocations behind push it. Live in the explorer: panel Pulse.
+"""
+import slipfront
+from slipfront import plots
+
+pulse = slipfront.pulse(slipfront.cases / "barrier.toml", errors=False)
+figure = plots.profiles(pulse, fields=("Sigma", "slip"), times=6)
