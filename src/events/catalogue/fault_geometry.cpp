@@ -43,23 +43,28 @@ void move_to_centres(FaultSegment& segment) {
 }
 
 double share_moment(FaultModel& model) {
-  const bool sized = std::all_of(model.segments.begin(), model.segments.end(),
-                                 [](const FaultSegment& s) { return s.cell_length && s.cell_width; });
+  const bool sized = std::all_of(model.segments.begin(), model.segments.end(), [](const FaultSegment& s) {
+    return (s.cell_length && s.cell_width) ||
+           std::all_of(s.patches.begin(), s.patches.end(), [](const FaultPatch& p) { return p.area.has_value(); });
+  });
+  bool is_known = sized;
   std::vector<double> moments(model.observation.subfaults.size(), 0);
   double sum = 0;
   for (const FaultSegment& segment : model.segments)
     for (const FaultPatch& p : segment.patches) {
-      double modulus = 1;
-      if (!model.rock.empty()) {
+      double area = p.area.value_or(1), modulus = p.shear_modulus.value_or(1);
+      if (!p.area && sized) area = *segment.cell_length * *segment.cell_width;
+      if (!p.shear_modulus && !model.rock.empty()) {
         const RockLayer& layer = rock_at(model.rock, p.depth);
         modulus = layer.density * layer.s_wave_speed * layer.s_wave_speed;
       }
-      moments[p.row] = modulus * (sized ? *segment.cell_length * *segment.cell_width : 1) * std::fabs(p.slip);
+      is_known = is_known && (p.shear_modulus || !model.rock.empty());
+      moments[p.row] = modulus * (sized ? area : 1) * std::fabs(p.slip);
       sum += moments[p.row];
     }
   for (std::size_t i = 0; i < moments.size(); ++i)
     if (sum > 0) model.observation.subfaults[i].moment_share = moments[i] / sum;
-  return sized && !model.rock.empty() ? sum : 0;
+  return is_known ? sum : 0;
 }
 
 const RockLayer& rock_at(const std::vector<RockLayer>& rock, double depth) {
