@@ -48,6 +48,17 @@ bool is_srf(std::string_view text) {
   return (first == "1.0" || first == "2.0") && has(text, "\nPOINTS");
 }
 
+/// Whether one character in twenty is a control character, as in data that are no text.
+bool is_binary(std::string_view text) {
+  const std::string_view start = text.substr(0, 2000);
+  const auto is_control = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (byte < 0x20 && (byte < '\t' || byte > '\r')) || byte == 0x7f;
+  };
+  const auto count = static_cast<std::size_t>(std::count_if(start.begin(), start.end(), is_control));
+  return count >= 4 && 20 * count >= start.size();
+}
+
 struct Kind {
   const char *name, *advice;
   bool (*is)(std::string_view text);
@@ -80,6 +91,7 @@ constexpr Kind kinds[] = {
      "one event a row; or a TOML file with moment and "
      "duration in [event]",
      is_series, false, true, true},
+    {"no text, but binary data", "a text file: a table saved as CSV, or TOML", is_binary, true, true, true},
 };
 
 }  // namespace

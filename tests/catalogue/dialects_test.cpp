@@ -303,6 +303,7 @@ TEST(ReadEvents, NamesFilesOfOtherKinds) {
   };
   EXPECT_EQ(refusal("PK\x03\x04 abc", "t.xlsx"), is("an Excel workbook or another ZIP archive"));
   EXPECT_EQ(refusal("\x89HDF\r\n", "t.nc"), is("a NetCDF file (HDF5)"));
+  EXPECT_EQ(refusal(std::string("ab\x01\x02xyz\x03\x04\n,;\xff", 13), "t.bin"), is("no text, but binary data"));
   EXPECT_EQ(refusal("%PDF-1.4\n", "t.pdf"), is("a PDF document"));
   EXPECT_EQ(refusal("PDEW2010  2 27 6 34\nevent name:  X\nhalf duration: 60.0\nMrr: 1.0e29\n", "CMTSOLUTION"),
             is("a moment tensor (CMTSOLUTION)"));
