@@ -12,7 +12,7 @@ namespace {
 struct Title {
   std::string_view name;
   double Row::*member;
-  medium::Dimension dimension = medium::Dimension::ratio;  ///< of an angle or a number
+  medium::Dimension dimension = medium::Dimension::ratio;  ///< an angle or a number has a ratio
   std::string_view unit_in_param = {};
 };
 using enum medium::Dimension;

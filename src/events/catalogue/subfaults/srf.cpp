@@ -65,7 +65,7 @@ class WordStream {
 constexpr double km = 1000, cm = 0.01, cm2 = 1e-4, g_per_cm3 = 1000;
 constexpr std::size_t most_subfaults = 10000000;
 
-/// What a plane says of its subfaults.
+/// Number and size of the subfaults of a plane.
 struct PlaneHeader {
   Grid grid;
   double length, width;

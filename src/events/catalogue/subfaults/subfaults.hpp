@@ -34,11 +34,11 @@ struct Grid {
 struct Table {
   std::string file = {};
   std::string format = {};  ///< for messages, such as "SRF 2.0"
-  std::string name = {};    ///< of the event; by default that of the file
+  std::string name = {};    ///< name of the event, by default that of the file
   std::vector<Row> rows = {};
   std::vector<Grid> grids = {};  ///< by segment; a segment without one is sorted by depth
   bool tops = false;             ///< positions are the middles of upper edges instead of centres
-  double longitude = none, latitude = none, depth = none;  ///< of the hypocentre, in degrees and m
+  double longitude = none, latitude = none, depth = none;  ///< hypocentre, in degrees and m
   std::vector<std::string> notes = {};
 };
 
