@@ -1,5 +1,5 @@
-// libFuzzer target: no .fsp text may crash the reader or make it return a velocity that is none, and none may become a
-// source whose slip rates miss its slip.
+// libFuzzer target: no text of a finite-fault model, in any format, may crash the reader or make it return a velocity
+// that is none, and none may become a source whose slip rates miss its slip.
 
 #include <cmath>
 #include <cstddef>

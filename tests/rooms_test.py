@@ -48,10 +48,11 @@ FOLDERS = {
         "grid": "pulse/friction",
     },
     "events": {
-        "catalogue": "catalogue/csv catalogue/fsp catalogue/json catalogue/toml",
+        "catalogue": "catalogue/csv catalogue/fsp catalogue/json catalogue/subfaults catalogue/toml",
         "catalogue/csv": "catalogue",
         "catalogue/fsp": "catalogue",
         "catalogue/json": "catalogue",
+        "catalogue/subfaults": "catalogue catalogue/fsp",
         "catalogue/toml": "catalogue",
         "inference/sampling": "",
         "inference": "inference/sampling",

@@ -16,12 +16,19 @@ int run_event(const EventArguments& a) {
                                  .value = std::to_string(a.draws),
                                  .problem = "there is no file to write the draws to",
                                  .allowed = "with -o OUT.nc"});
-  if (a.fault_grid && !std::string_view(a.output).ends_with(".nc"))
+  const std::string_view output = a.output;
+  if (a.fault_grid && !output.ends_with(".nc") && !output.ends_with(".csv"))
     throw slipfront::InputError({.file = "command line",
                                  .key = "--fault-grid",
-                                 .problem = "there is no NetCDF file to write the grid to",
-                                 .allowed = "with -o OUT.nc"});
-  if (a.damping_number && (a.fault_grid || !describes_fault(a)))
+                                 .problem = "there is no file to write the subfaults to",
+                                 .allowed = "with -o OUT.nc or OUT.csv"});
+  if (!a.srf_version.empty() && !output.ends_with(".srf"))
+    throw slipfront::InputError({.file = "command line",
+                                 .key = "--srf-version",
+                                 .value = a.srf_version,
+                                 .problem = "no SRF file is written",
+                                 .allowed = "with -o OUT.srf"});
+  if (a.damping_number && !output.ends_with(".srf"))
     throw slipfront::InputError({.file = "command line",
                                  .key = "--damping-number",
                                  .value = std::to_string(*a.damping_number),
@@ -56,9 +63,12 @@ void add_sampling_options(CommandLine& command, EventArguments& arguments) {
 }
 
 void add_source_options(CommandLine& command, EventArguments& arguments) {
-  command.flag("--fault-grid", arguments.fault_grid,
-               "Write the subfaults of one .fsp to OUT.nc instead of events: rupture time, slip, rise time and static "
-               "stress drop on a grid");
+  command.flag(
+      "--fault-grid", arguments.fault_grid,
+      "Write the subfaults of one finite-fault model instead of events: rupture time, slip, rise time and static "
+      "stress drop on a grid to OUT.nc, or one subfault a row to OUT.csv");
+  command.option("--srf-version", "VERSION", arguments.srf_version, "Version of OUT.srf: 2.0 (default) or 1.0")
+      .one_of({"1.0", "2.0"});
   command
       .option("--damping-number", "GAMMA", arguments.damping_number,
               "Slip-rate functions of OUT.srf: damping number at the end of the rise time; 0: constant slip rate "
@@ -68,8 +78,8 @@ void add_source_options(CommandLine& command, EventArguments& arguments) {
 
 void add_input_options(CommandLine& command, EventArguments& a) {
   command.option("FILE", "", a.files,
-                 "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, USGS .json, - for stdin; none: the "
-                 "shipped catalogue");
+                 "Events: .toml (one), .csv (a catalogue), USGS .json, a finite-fault model (.fsp, SRF, .param, .rupt, "
+                 "FFM.geojson, CSV of subfaults), - for stdin; none: the shipped catalogue");
   command.option("--columns", "MAP.toml", a.column_map,
                  "TOML file that maps the titles of CSV columns to quantities: [columns] \"VR\" = \"rupture_velocity "
                  "km/s\"; also decimal, separator, skip_lines, missing");
@@ -90,7 +100,7 @@ Runner add_event(CommandLine& program) {
   add_sampling_options(command, *arguments);
   add_source_options(command, *arguments);
   command.flag("--pulse", arguments->pulse,
-               "Run a frictionless pulse through the slip distribution of a .fsp, and compare its front and slip "
+               "Run a frictionless pulse through the slip of a finite-fault model, and compare its front and slip "
                "with those of the model");
   command.flag("--population", arguments->population,
                "Print statistics by decade of rupture velocity instead of events (with --json: in addition): number "
@@ -99,7 +109,7 @@ Runner add_event(CommandLine& program) {
       .option(
           "-o,--output", "OUT.nc", arguments->output,
           "File to write instead of the table: NetCDF; CSV rows if the name ends in .csv; the kinematic source of one "
-          "finite-fault model (Standard Rupture Format 2.0) if it ends in .srf")
+          "finite-fault model if it ends in .srf (Standard Rupture Format) or .fsp")
       .checked_by([](const std::string& path) { return path.empty() ? "the file name is empty" : ""; });
   command.option("--resume", "OUT.nc", arguments->resume,
                  "Resume from an unfinished file of these events, and write to it");

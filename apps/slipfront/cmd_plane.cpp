@@ -3,6 +3,7 @@
 
 #include "long_run.hpp"
 #include "runs/fault.hpp"
+#include "runs/tables.hpp"
 #include "slipfront/lattice/plane/solvers.hpp"
 #include "system/files/whole_file.hpp"
 #include "system/ranks.hpp"
@@ -48,7 +49,7 @@ run::Plan plan_of_model(const ScenarioArguments& a) {
 
 int run_plane(const ScenarioArguments& a, bool direct) {
   const auto make_plan = [&] {
-    if (a.scenario.ends_with(".fsp")) return plan_of_model(a);
+    if (run::is_fault_model(a.scenario)) return plan_of_model(a);
     return run::plan_of(direct ? scenario::SolverKind::plane_direct : scenario::SolverKind::plane, read_scenario_of(a));
   };
   return plan_and_run(a, Clock::now(), make_plan, plane_in_words);

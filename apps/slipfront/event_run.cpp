@@ -72,7 +72,7 @@ void check_names(const EventArguments& a) {
   };
   const auto is_netcdf = [](const std::string& path) { return std::string_view(path).ends_with(".nc"); };
   if (!a.output.empty() && !is_netcdf(a.output) && !is_csv(a.output) && !describes_fault(a))
-    refuse("-o", a.output, "OUT.nc, OUT.csv or OUT.srf");
+    refuse("-o", a.output, "OUT.nc, OUT.csv, OUT.srf or OUT.fsp");
   if (!a.resume.empty() && !is_netcdf(a.resume)) refuse("--resume", a.resume, "OUT.nc, as -o wrote it");
   const bool holds_events = is_netcdf(a.output) && !describes_fault(a);
   if (a.draws > 0 && !a.output.empty() && !holds_events) refuse("-o", a.output, "OUT.nc, with --draws");

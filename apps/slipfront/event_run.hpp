@@ -21,6 +21,7 @@ struct EventArguments {
   std::string output, resume;
   std::size_t draws = 0;
   bool fault_grid = false;
+  std::string srf_version;               ///< "1.0" or "2.0"
   std::optional<double> damping_number;  ///< sets the shape of slip-rate functions
   std::string column_map;                ///< file of --columns
   bool strict = false;
@@ -34,5 +35,7 @@ int write_events(const EventArguments& arguments);
 
 /// Whether the output file describes the fault of one finite-fault model, not events.
 bool describes_fault(const EventArguments& arguments);
+/// Whether the output file is a kinematic source, by its ending.
+bool writes_source(const EventArguments& arguments);
 /// Writes that file. Returns the exit code. \throws InputError, FileError.
 int write_fault(const EventArguments& arguments, const slipfront::run::CatalogueScenario& scenario);

@@ -19,7 +19,7 @@
 const slipfront::Ranks* the_ranks = nullptr;
 
 void complain(std::string_view line) {
-  std::fprintf(stderr, "slipfront: %s\n", slipfront::printable_message(line).c_str());
+  std::fputs(fitted_message("slipfront: " + slipfront::printable_message(line)).c_str(), stderr);
 }
 
 void add_wide(CommandLine& command, bool& wide) {

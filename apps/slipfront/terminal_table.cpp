@@ -45,8 +45,8 @@ std::string without_trailing_blanks(std::string_view line) {
   return std::string(line.substr(0, line.find_last_not_of(' ') + 1));
 }
 
-std::size_t measured_width() {
-  if (isatty(STDOUT_FILENO) == 0) return usual_width;
+std::size_t measured_width(int stream) {
+  if (isatty(stream) == 0) return usual_width;
   std::size_t width = 0;
   if (const char* const wanted = std::getenv("COLUMNS")) {
     const std::string_view text = wanted;
@@ -54,7 +54,7 @@ std::size_t measured_width() {
     if (error == std::errc() && end == text.data() + text.size() && width > 0) return width;
   }
   winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return usual_width;
+  if (ioctl(stream, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return usual_width;
   return size.ws_col;
 }
 
@@ -73,7 +73,7 @@ std::size_t after_characters(std::string_view text, std::size_t count) {
 void print_whole_lines() { has_width = false; }
 
 std::optional<std::size_t> terminal_width() {
-  static const std::size_t width = measured_width();
+  static const std::size_t width = measured_width(STDOUT_FILENO);
   return has_width ? std::optional(width) : std::nullopt;
 }
 
@@ -82,15 +82,14 @@ std::string with_reason(std::string meaning, const std::string& reason) {
   return meaning;
 }
 
-std::string fitted(std::string_view line, std::size_t indent) {
-  const std::optional<std::size_t> width = terminal_width();
-  if (!width) return std::string(line) + "\n";
-  const std::string shown = slipfront::printable(line);
-  std::string_view rest = shown;
-  indent = std::min(indent, 2 * *width / 3);
+namespace {
+
+/// Breaks a line at blanks into lines of at most `width` characters, unless a word is longer.
+std::string broken(std::string_view rest, std::size_t indent, std::size_t width) {
+  indent = std::min(indent, 2 * width / 3);
   std::string out;
   while (true) {
-    const std::size_t end = after_characters(rest, *width - (out.empty() ? 0 : indent));
+    const std::size_t end = after_characters(rest, width - (out.empty() ? 0 : indent));
     std::size_t blank = end == rest.size() ? std::string_view::npos : rest.rfind(' ', end);
     while (blank != std::string_view::npos && blank > 0 && is_in_equation(rest, blank))
       blank = rest.rfind(' ', blank - 1);
@@ -102,6 +101,18 @@ std::string fitted(std::string_view line, std::size_t indent) {
     out += without_trailing_blanks(rest.substr(0, blank)) + "\n" + std::string(indent, ' ');
     rest.remove_prefix(next);
   }
+}
+
+}  // namespace
+
+std::string fitted(std::string_view line, std::size_t indent) {
+  const std::optional<std::size_t> width = terminal_width();
+  return width ? broken(slipfront::printable(line), indent, *width) : std::string(line) + "\n";
+}
+
+std::string fitted_message(std::string_view line) {
+  const bool is_shown = has_width && isatty(STDERR_FILENO) != 0;
+  return is_shown ? broken(line, 2, measured_width(STDERR_FILENO)) : std::string(line) + "\n";
 }
 
 std::string fitted_help(std::string_view help) {

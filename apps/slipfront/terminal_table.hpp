@@ -22,6 +22,9 @@ void print_whole_lines();
 /// blanks. A word that is longer than a line stays whole, so that paths can be copied.
 std::string fitted(std::string_view line, std::size_t indent = 0);
 
+/// A message for stderr. It is broken to fit if stderr is a terminal, and stays one line otherwise, for programs.
+std::string fitted_message(std::string_view line);
+
 /// The help of a command with lines that fit. Examples stay whole, so that they can be copied.
 std::string fitted_help(std::string_view help);
 

@@ -16,6 +16,8 @@ Dimension dimension_named(const std::string& name) {
   if (name == "velocity") return Dimension::velocity;
   if (name == "pressure") return Dimension::pressure;
   if (name == "density") return Dimension::density;
+  if (name == "length") return Dimension::length;
+  if (name == "time") return Dimension::time;
   return Dimension::ratio;
 }
 

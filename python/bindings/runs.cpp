@@ -9,6 +9,7 @@
 #include "runs/errors.hpp"
 #include "runs/fault.hpp"
 #include "runs/run.hpp"
+#include "runs/tables.hpp"
 #include "system/files/whole_file.hpp"
 #include "watch.hpp"
 
@@ -66,7 +67,7 @@ py::dict run_chain(const py::dict& arguments, int threads) {
 
 /// The plan of a run on a plane, of a scenario or of a finite-fault model.
 run::Plan plan_plane(const RunRequest& a, bool direct) {
-  if (!a.path.ends_with(".fsp"))
+  if (!run::is_fault_model(a.path))
     return run::plan_of(direct ? SolverKind::plane_direct : SolverKind::plane, scenario_of(a));
 
   const py::gil_scoped_release others_may_run;

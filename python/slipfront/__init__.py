@@ -24,7 +24,9 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
     sweep       runs a pulse or a chain over a grid of settings, on all cores or on a Dask cluster
     event       stress and contact ratio of observed events
     fronts      fronts of a run: path, velocity, and the stress ahead
+    arrivals    velocity of a front from its arrival times at gauges
     laboratory  hardness over modulus from the velocities of fronts in the laboratory
+    laboratory_events  stick-slip events in the record of an experiment
     population  stress, normal stress and friction of many events, and how much they scatter
     check       checks a scenario without running it
     open        reads a file that slipfront has written
@@ -43,10 +45,12 @@ from ._optional import require_compiled
 require_compiled()
 
 from . import _accessor, medium, train
+from ._arrivals import arrivals
 from ._event import event
 from ._friction_ratio import damping_number, friction_ratio
 from ._fronts import fronts
 from ._laboratory import laboratory
+from ._laboratory_events import laboratory_events
 from ._hierarchy import population
 from ._potency import moment_duration
 from ._relations import relations
@@ -81,5 +85,5 @@ class _Package(types.ModuleType):
 
 sys.modules[__name__].__class__ = _Package
 
-__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "fronts", "laboratory", "medium",
-           "moment_duration", "open", "plane", "population", "pulse", "relations", "riemann", "sweep", "train"]
+__all__ = ["FileError", "InputError", "NumericsError", "__version__", "arrivals", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "fronts", "laboratory",
+           "laboratory_events", "medium", "moment_duration", "open", "plane", "population", "pulse", "relations", "riemann", "sweep", "train"]

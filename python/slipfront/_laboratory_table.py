@@ -56,7 +56,7 @@ def _check_stresses(front, file):
         _slipfront.refuse(file, front.line, "shear_stress", "", f"it is {ratio:.3g} of the normal stress", "1e-9 to 1e9")
 
 
-def _text_of(table):
+def text_of(table):
     """Returns (text, name) of a table as the user gives it."""
     if isinstance(table, Mapping):
         try:
@@ -96,7 +96,7 @@ def read(table, strict=False, columns=None, normal_stress=None):
 
     `normal_stress` is that of fronts without their own. Raises InputError if the header is unusable or no row can be read; if `strict`, also
     for one bad row."""
-    text, file = _text_of(table)
+    text, file = text_of(table)
     constant = None
     if normal_stress is not None:
         constant = _slipfront.parse_measured(str(normal_stress), "pressure", "" if isinstance(normal_stress, str) else "Pa", "", 0, "normal_stress")

@@ -4,20 +4,21 @@ import contextlib
 import sys
 from collections.abc import Callable
 
+from . import _table
 from ._shown import shortened
 
 DONE, INPUT, FILE, NUMERICS, INTERRUPTED = 0, 2, 3, 4, 130
 
 
 def complain(error):
-    """Prints an error or a warning as one line on stderr."""
+    """Prints an error or a warning as one line on stderr, broken to fit a terminal."""
     text = shortened(" ".join(str(error).split())) or type(error).__name__
     with contextlib.suppress(ImportError):  # without the compiled module, that is the error to print
         from ._slipfront import printable
 
         text = printable(text.encode("utf-8", "surrogateescape"))
     with contextlib.suppress(OSError):
-        print(f"slipfront: {text}", file=sys.stderr)
+        print(_table.fitted_message(f"slipfront: {text}"), file=sys.stderr)
 
 
 class Interruption:

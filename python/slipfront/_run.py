@@ -140,7 +140,7 @@ def plane(scenario, *, direct=False, set=None, output=None, resume=None, progres
     ----------
     scenario : path, str or dict
         Path of a TOML file, TOML text (a str with a line break), or a dict nested like the TOML, with the table [plane]
-        (docs/scenario.md). A finite-fault model (.fsp) is computed line by line.
+        (docs/scenario.md). A finite-fault model is computed line by line.
     direct : bool, optional
         Whether to follow every dislocation line, which needs chain.scale. By default, the averaged equations are solved.
     set : dict, optional

@@ -1,6 +1,6 @@
 """Tables and lines of text that fit the terminal, by the rules of apps/slipfront/terminal_table.hpp."""
 
-import shutil
+import os
 import sys
 import textwrap
 
@@ -17,13 +17,30 @@ class Lines:
     whole = False
 
 
-def width():
-    """Returns the largest number of characters in a line, or None if there is none."""
+def width(stream=None):
+    """Returns the largest number of characters in a line of stdout or another stream, or None if
+    there is none."""
+    stream = stream or sys.stdout
     if Lines.whole:
         return None
-    if not sys.stdout.isatty():
+    if not stream.isatty():
         return USUAL_WIDTH
-    return shutil.get_terminal_size((USUAL_WIDTH, 24)).columns
+    wanted = os.environ.get("COLUMNS", "")
+    if wanted.isascii() and wanted.isdigit() and int(wanted):
+        return int(wanted)
+    return os.get_terminal_size(stream.fileno()).columns or USUAL_WIDTH
+
+
+def fitted_message(line):
+    """Returns a message for stderr, broken to fit if that is a terminal, and otherwise as one line,
+    for programs."""
+    most = width(sys.stderr) if sys.stderr.isatty() else None
+    return line if most is None else _broken(line, most, 2)
+
+
+def _broken(line, most, indent):
+    return textwrap.fill(line, most, subsequent_indent=" " * indent, break_long_words=False,
+                         break_on_hyphens=False)
 
 
 def fitted(line, indent=2):
@@ -31,8 +48,7 @@ def fitted(line, indent=2):
     most = width()
     if most is None or len(line) <= most:
         return line
-    return textwrap.fill(line, most, subsequent_indent=" " * indent, break_long_words=False,
-                         break_on_hyphens=False)
+    return _broken(line, most, indent)
 
 
 def blocks_of(widths, most, gap):

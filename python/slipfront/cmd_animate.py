@@ -13,6 +13,10 @@ FRAMES = 75
 ROCK = {"p_wave_speed": 6000.0, "poisson_ratio": 0.3, "shear_modulus": 30e9}
 
 
+#: Endings of finite-fault models, by which they differ from results.
+MODELS = (".fsp", ".srf", ".param", ".rupt", ".geojson")
+
+
 def content_of(scenario):
     """Returns the tables of a scenario file, or none if it cannot be read: the run reports the error."""
     try:
@@ -28,7 +32,7 @@ def run(scenario, si, direct):
     import slipfront
 
     content = content_of(scenario)
-    on_plane = "plane" in content or scenario.lower().endswith(".fsp")
+    on_plane = "plane" in content or scenario.lower().endswith(MODELS)
     if direct and not on_plane:
         raise ValueError(f"{scenario}: --direct: not a scenario on a plane; allowed: with the table [plane]")
     plan = slipfront.check(scenario, command="plane" if on_plane else "pulse", direct=direct)
@@ -48,7 +52,7 @@ def content_to_show(source, si=None, direct=False):
     units, by default those of the file or the scenario."""
     from .plots import files
 
-    shown = run(source, si, direct) if source.lower().endswith((".toml", ".fsp")) else files.read(source, si)
+    shown = run(source, si, direct) if source.lower().endswith((".toml", *MODELS)) else files.read(source, si)
     on_plane = is_plane(shown)
     is_pulse = {"W", "Sigma", "k", "x_bounds"} <= set(shown.variables) and set(shown["k"].dims) == {"time", "x"}
     if not (on_plane or is_pulse) or shown.sizes["time"] < 2:
@@ -99,7 +103,7 @@ def arguments(argv):
                        ["slipfront animate cases/step.toml -o step.gif", "slipfront animate cases/step.toml cases/step-viscous.toml -o both.webp",
                         "slipfront animate cases/plane-barrier.toml --direct -o barrier.gif"])
     parser.add_argument("sources", metavar="FILE", nargs="+",
-                        help="NetCDF of pulse, chain or plane (a frame for each output time), or a scenario (TOML) or finite-fault model (.fsp) to run; "
+                        help="NetCDF of pulse, chain or plane (a frame for each output time), or a scenario (TOML) or finite-fault model (" + ", ".join(MODELS) + ") to run; "
                              "several are drawn side by side")
     parser.add_argument("--direct", action="store_true", help="follow every dislocation line of scenarios on a plane, and draw it")
     parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name, required=True, help="its ending is the format: gif, webp, mp4")

@@ -4,7 +4,7 @@ import csv
 import json
 import sys
 
-from ._arguments import Arguments, add_units, chosen_units, netcdf_name, put
+from ._arguments import Arguments, add_columns, add_units, chosen_units, netcdf_name, put
 from ._table import table
 
 #: Titles of the table for the terminal, the variable of each, and its name for the unit.
@@ -17,14 +17,23 @@ def arguments(argv):
     parser = Arguments("fronts", "Finds the fronts of a run, as slipfront.fronts does in Python. RUN.nc is a loaded chain with output.fronts, or a pulse or a chain without [loading] and "
                        "with many output times.",
                        ["slipfront pulse cases/step.toml --set output.every=0.2 -o step.nc", "slipfront fronts step.nc", "slipfront chain cases/precursors.toml -o block.nc",
-                        "slipfront fronts block.nc -o fronts.nc", "slipfront fronts block.nc --csv > fronts.csv", "slipfront plot fronts.nc"])
-    parser.add_argument("run", metavar="RUN.nc", help="file of a chain or a pulse")
+                        "slipfront fronts block.nc -o fronts.nc", "slipfront fronts block.nc --csv > fronts.csv", "slipfront plot fronts.nc", "slipfront fronts --arrivals gauges.csv --columns map.toml"])
+    parser.add_argument("run", metavar="RUN.nc", nargs="?", help="file of a chain or a pulse")
+    parser.add_argument("--arrivals", metavar="TABLE", help="in place of RUN.nc: arrival times at gauges, CSV with the columns position and time and, if known, error of position, error of time and event")
+    add_columns(parser)
     parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name, help="NetCDF file to write; slipfront plot draws it")
     parser.add_argument("--threshold", metavar="SHARE", type=float, help="slip velocity at the front over the largest of the run, for runs that recorded no arrivals (default: 0.001)")
     parser.add_argument("--slow", metavar="SHARE", type=float, default=0.1, help="a front below this share of the speed of Rayleigh waves is slow (default: 0.1)")
     add_units(parser, "default if the run is in SI units")
     parser.add_argument("--csv", action="store_true", help="the fronts with a velocity as CSV in SI units, which slipfront laboratory reads")
     options = parser.parse_args(argv)
+    if (options.run is None) == (options.arrivals is None):
+        raise ValueError("RUN.nc: either a run or a table of arrivals is needed; allowed: RUN.nc, or --arrivals TABLE")
+    if options.columns and not options.arrivals:
+        raise ValueError("--columns: not for a run; allowed: with --arrivals")
+    for option in ("output", "threshold", "dimensionless"):
+        if options.arrivals and getattr(options, option):
+            raise ValueError(f"--{option}: not allowed with --arrivals; allowed: --csv or --json")
     if options.csv and (options.json or options.output):
         raise ValueError("--csv: not allowed with --json or -o")
     return options
@@ -87,9 +96,34 @@ def summary(data):
     yield f"Rayleigh  {data.attrs['rayleigh_speed']:.4g} c" + (f" = {data.attrs['rayleigh_speed'] * data.attrs['c_m_s']:.4g} m/s" if "c_m_s" in data.attrs else "")
 
 
+def report_arrivals(options):
+    """Prints the velocities from arrival times."""
+    from ._arrivals import arrivals, csv_of_arrivals
+
+    data = arrivals(options.arrivals, columns=options.columns)
+    notes = [line for line in data.attrs["warnings"].split("\n") if line]
+    cells = {name: data[name].values.tolist() for name in data.data_vars}
+    if options.csv:
+        sys.stdout.write(csv_of_arrivals(data))
+    elif options.json:
+        found = [dict(zip(cells, row)) for row in zip(*cells.values())]
+        for front in found:
+            front.update(velocity=known(front["velocity"]), velocity_interval=[known(end) for end in front["velocity_interval"]])
+        print(json.dumps({"file": options.arrivals, "fronts": found, "warnings": notes}))
+    else:
+        put(table([["event", "", *map(cell, cells["event"])], ["begin", "m", *map(cell, cells["front_begin"])], ["end", "m", *map(cell, cells["front_end"])],
+                   ["V", "m/s", *map(cell, cells["velocity"])], *([f"{share} %", "m/s", *(cell(ends[i]) for ends in cells["velocity_interval"])] for i, share in enumerate((5, 95)))]))
+        if not options.quiet:
+            for note in notes:
+                put(f"note: {note}")
+
+
 def main(argv) -> int:
     """Runs the command and returns the exit code. Raises ValueError for bad input, OSError for files."""
     options = arguments(argv)
+    if options.arrivals:
+        report_arrivals(options)
+        return 0
     from . import fronts
 
     data = fronts(options.run, threshold=options.threshold, slow=options.slow, output=options.output, si=False if options.csv else chosen_units(options))

@@ -4,7 +4,7 @@ import argparse
 import json
 import sys
 
-from ._arguments import Arguments, add_columns, netcdf_name, put
+from ._arguments import Arguments, add_columns, file_name, put
 from ._messages import DONE, INPUT, complain
 from ._shown import shown
 from ._table import table
@@ -37,11 +37,16 @@ def arguments(argv):
     """Returns the options of the command line."""
     parser = Arguments("laboratory", "Computes the penetration hardness over the shear modulus from the velocities of fronts, as slipfront.laboratory does in Python. TABLE has "
                        "the columns tau, normal_stress, front_velocity and, if known, stress_drop (or shear_stress_after) and name, with units in the titles or cells. A row that cannot be read is "
-                       "named and left out, and the exit code is 2.",
+                       "named and left out, and the exit code is 2. With --events, TABLE is the record of an experiment (time, displacement, shear stress, normal stress), whose "
+                       "stick-slip events become a table.",
                        ["slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --s-wave-speed \"1300 m/s\" -o fronts.nc",
-                        "slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --shear-modulus \"2 GPa\" --density \"1180 kg/m3\" --json"])
-    parser.add_argument("table", metavar="TABLE", help="table of fronts, CSV")
-    parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name, help="NetCDF file to write; slipfront plot draws it")
+                        "slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --shear-modulus \"2 GPa\" --density \"1180 kg/m3\" --json",
+                        "slipfront laboratory record.csv --events --normal-stress \"5 MPa\" -o events.csv"])
+    parser.add_argument("table", metavar="TABLE", help="table of fronts, or record of an experiment, CSV")
+    parser.add_argument("-o", "--output", metavar="OUT", type=file_name, help="NetCDF file to write, which slipfront plot draws; with --events, a table that slipfront laboratory and event read (CSV)")
+    parser.add_argument("--events", action="store_true", help="find the stick-slip events of a record: stress drop, slip, duration and stiffness")
+    parser.add_argument("--load-point", action="store_true", help="with --events: the displacement is that of the load point, not the slip of the interface")
+    parser.add_argument("--least-drop", metavar="STRESS", help="with --events: smallest drop that is an event, such as \"0.1 MPa\" (default: 8 times the noise, at least 5 %% of the range)")
     for name, example in (("--poisson-ratio", "0.35"), ("--shear-modulus", "2 GPa"), ("--density", "1180 kg/m3"), ("--p-wave-speed", "2700 m/s"), ("--s-wave-speed", "1300 m/s")):
         parser.add_argument(name, metavar="VALUE", help=f"constant of the material, such as \"{example}\"")
     parser.add_argument("--normal-stress", metavar="VALUE", help="normal stress of fronts for which the table has none, such as \"2 MPa\"")
@@ -53,6 +58,11 @@ def arguments(argv):
     parser.add_argument("--strict", action="store_true", help="refuse the table if a row cannot be read")
     parser.add_argument("--si", action="store_true", help="velocities in m/s and the hardness in Pa")
     options = parser.parse_args(argv)
+    ending = ".csv" if options.events else ".nc"
+    if options.output and not options.output.endswith(ending):
+        raise ValueError(f"-o {options.output}: unsupported file type; allowed: a name that ends in {ending}")
+    if not options.events and (options.load_point or options.least_drop):
+        raise ValueError(f"{'--load-point' if options.load_point else '--least-drop'}: not without --events; allowed: with the record of an experiment")
     for option in ("prior", "scatter_prior"):
         try:
             setattr(options, option, interval(getattr(options, option)))
@@ -138,9 +148,36 @@ def report(data, options):
         put(f"written to {options.output}")
 
 
+def report_events(options):
+    """Finds the events of a record, and prints or writes them."""
+    from ._files import write_text
+    from ._laboratory_events import cells_of, csv_of, laboratory_events
+
+    data = laboratory_events(options.table, columns=options.columns, normal_stress=options.normal_stress, least_drop=options.least_drop, load_point=options.load_point)
+    titles, cells = cells_of(data)
+    if options.output:
+        write_text(options.output, csv_of(data))
+    if options.json:
+        print(json.dumps({"file": options.output, **{name: data.attrs[name] for name in ("least_drop_pa", "displacement_is")}, "warnings": lines(data, "warnings"),
+                          "events": [{name: known(float(value)) for name, value in zip(data.data_vars, row)} for row in zip(*(v.values for v in data.data_vars.values()))]}))
+        return
+    heads = [(title.partition(" [")[0], title.partition(" [")[2].rstrip("]")) for title in titles]
+    columns = [["event", "", *(str(number) for number in data["event"].values)]]
+    columns += [[name, unit, *(row[i] or "-" for row in cells)] for i, (name, unit) in enumerate(heads)]
+    put("\n".join([table(columns), "", f"events    {len(cells)}, with drops of {data.attrs['least_drop_pa'] / 1e6:.3g} MPa and more"]))
+    if not options.quiet:
+        for warning in lines(data, "warnings"):
+            put(f"note: {warning}")
+        if options.output:
+            put(f"written to {options.output}: fill in front_velocity to use it with slipfront laboratory")
+
+
 def main(argv) -> int:
     """Runs the command and returns the exit code. Raises ValueError for bad input, OSError for files."""
     options = arguments(argv)
+    if options.events:
+        report_events(options)
+        return DONE
     from . import laboratory
 
     data = laboratory(options.table, poisson_ratio=options.poisson_ratio, shear_modulus=options.shear_modulus, density=options.density, p_wave_speed=options.p_wave_speed,

@@ -20,7 +20,7 @@
 namespace slipfront::run {
 
 FaultResult fault_source(const CatalogueScenario& scenario, const finite_fault::SourceOptions& options) {
-  const char* const allowed = "one finite-fault model in .fsp format";
+  const char* const allowed = "one finite-fault model, such as .fsp, SRF or .param";
   if (scenario.texts.size() != 1)
     throw InputError({.file = "command line",
                       .key = "FILE",
@@ -30,7 +30,7 @@ FaultResult fault_source(const CatalogueScenario& scenario, const finite_fault::
   const EventText& text = scenario.texts.front();
   if (!text.error.empty()) throw FileError(text.error);
   for (const std::string_view ending : {".csv", ".toml"})
-    if (text.name.ends_with(ending))
+    if (text.name.ends_with(ending) && !catalogue::is_fault_model(text.text))
       throw InputError({.file = text.name, .problem = "no finite-fault model", .allowed = allowed});
   catalogue::FaultModel model = catalogue::read_fault_model(text.text, text.name);
   const medium::Defaults defaults = medium::defaults_of(scenario.medium);

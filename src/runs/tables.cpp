@@ -9,8 +9,15 @@
 
 namespace slipfront::run {
 
+bool is_fault_model(const std::string& path) try {
+  if (path.ends_with(".toml") || path.ends_with(".nc") || path == "-") return false;
+  return path.ends_with(".fsp") || catalogue::is_fault_model(record::read_text(path));
+} catch (const FileError&) {  // its reader reports it
+  return false;
+}
+
 std::vector<std::vector<double>> read_table(const std::string& path, const std::vector<std::string>& columns) {
-  if (!path.ends_with(".fsp")) return record::read_table(path, columns);
+  if (!is_fault_model(path)) return record::read_table(path, columns);
   if (columns != std::vector<std::string>{"x", "y", "slip"})
     throw InputError({.file = path,
                       .problem = "a finite-fault model has no such columns",

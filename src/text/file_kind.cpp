@@ -48,6 +48,17 @@ bool is_srf(std::string_view text) {
   return (first == "1.0" || first == "2.0") && has(text, "\nPOINTS");
 }
 
+/// Whether one character in twenty is a control character, as in data that are no text.
+bool is_binary(std::string_view text) {
+  const std::string_view start = text.substr(0, 2000);
+  const auto is_control = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (byte < 0x20 && (byte < '\t' || byte > '\r')) || byte == 0x7f;
+  };
+  const auto count = static_cast<std::size_t>(std::count_if(start.begin(), start.end(), is_control));
+  return count >= 4 && 20 * count >= start.size();
+}
+
 struct Kind {
   const char *name, *advice;
   bool (*is)(std::string_view text);
@@ -68,8 +79,7 @@ constexpr Kind kinds[] = {
      true, true},
     {"a moment tensor (CMTSOLUTION)", "a TOML file with moment, duration and velocities in [event]",
      [](Text t) { return has(t, "event name:") && has(t, "Mrr:"); }, true, true, true},
-    {"a kinematic source (SRF)", "slipfront event MODEL.fsp, with the finite-fault model of which it was made", is_srf,
-     true, true, true},
+    {"a kinematic source (SRF)", "slipfront event or plane FILE, or a scenario in TOML", is_srf, false, true, true},
     {"a finite-fault model", "slipfront event FILE, or a scenario in TOML",
      [](Text t) { return has(t.substr(0, 1000), "FINITE-SOURCE RUPTURE MODEL"); }, false, true, true},
     {"a scenario", "slipfront pulse, chain or plane; or a table [event] in the file",
@@ -81,6 +91,7 @@ constexpr Kind kinds[] = {
      "one event a row; or a TOML file with moment and "
      "duration in [event]",
      is_series, false, true, true},
+    {"no text, but binary data", "a text file: a table saved as CSV, or TOML", is_binary, true, true, true},
 };
 
 }  // namespace

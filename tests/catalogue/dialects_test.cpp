@@ -303,11 +303,11 @@ TEST(ReadEvents, NamesFilesOfOtherKinds) {
   };
   EXPECT_EQ(refusal("PK\x03\x04 abc", "t.xlsx"), is("an Excel workbook or another ZIP archive"));
   EXPECT_EQ(refusal("\x89HDF\r\n", "t.nc"), is("a NetCDF file (HDF5)"));
+  EXPECT_EQ(refusal(std::string("ab\x01\x02xyz\x03\x04\n,;\xff", 13), "t.bin"), is("no text, but binary data"));
   EXPECT_EQ(refusal("%PDF-1.4\n", "t.pdf"), is("a PDF document"));
   EXPECT_EQ(refusal("PDEW2010  2 27 6 34\nevent name:  X\nhalf duration: 60.0\nMrr: 1.0e29\n", "CMTSOLUTION"),
             is("a moment tensor (CMTSOLUTION)"));
-  EXPECT_EQ(refusal("2.0\n# c\nPLANE 1\n0 0 6 4 12 8\n0 90 2 1 4\nPOINTS 1\n", "t.srf"),
-            is("a kinematic source (SRF)"));
+  EXPECT_EQ(refusal("2.0\n# c\nPLANE 1\n0 0 6 4 12 8\n0 90 2 1 4\nPOINTS 1\n", "t.srf"), "the file is cut short");
   EXPECT_EQ(refusal("title = \"x\"\n[initial]\n", "t.toml"), is("a scenario"));
   EXPECT_EQ(refusal("[initial]\n[event]\nname = \"both\"\n", "t.toml"), "both");
   EXPECT_EQ(refusal("# stf\n0 0\n0.1 1e17\n0.2 2e17\n0.3 1e17\n0.4 0\n", "t.stf"),

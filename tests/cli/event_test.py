@@ -86,7 +86,7 @@ class Event(CommandLine):
         fsp = os.path.join(SOURCE, "cases", "synthetic-fault.fsp")
         source = os.path.join(os.path.dirname(self.file("x", "")), "s.srf")
         self.ok("event", fsp, "-o", source)
-        for arguments, kind in ((("event", source), "a kinematic source (SRF): slipfront reads no such file as events; allowed: slipfront event MODEL.fsp"),
+        for arguments, kind in ((("chain", source), "a kinematic source (SRF): slipfront reads no such file as a scenario; allowed: slipfront event"),
                                 (("event", os.path.join(SOURCE, "cases", "step.toml")), "a scenario: slipfront reads no such file as events; allowed: slipfront pulse"),
                                 (("chain", fsp), "a finite-fault model: slipfront reads no such file as a scenario; allowed: slipfront event"),
                                 (("pulse", fsp), "a finite-fault model")):
@@ -299,7 +299,7 @@ class Event(CommandLine):
 
     def test_unusable_file_names_are_refused(self):
         case = os.path.join(SOURCE, "cases/ets.toml")
-        self.refused(2, "event", case, "-o", "out.txt", says=["-o = 'out.txt'", "OUT.nc, OUT.csv or OUT.srf"])
+        self.refused(2, "event", case, "-o", "out.txt", says=["-o = 'out.txt'", "OUT.nc, OUT.csv, OUT.srf or OUT.fsp"])
         self.refused(2, "event", case, "--resume", "out.csv", says=["--resume = 'out.csv'", "OUT.nc"])
         self.refused(2, "event", case, "--resume", "a.nc", "-o", "out.csv", says=["-o = 'out.csv'"])
         rows = self.file("rows.csv", "name,rupture_velocity\nA,3 km/s\n")

@@ -322,7 +322,7 @@ class Srf(CommandLine):
         no_depth = self.file("depth.fsp", model_text(times="UNKNOWN")[0].replace("DEP = 3.0", "").replace("HypZ = 3 km", ""))
         no_size = self.file("size.fsp", text.replace("LEN = ", "L = "))
         for arguments, words in (
-                ([table], "no finite-fault model; allowed: one finite-fault model in .fsp format"),
+                ([table], "no finite-fault model; allowed: one finite-fault model, such as .fsp, SRF or .param"),
                 ([model, model], "a source is made of one model"),
                 ([no_strike], "STRIKE: no strike and dip for this segment"),
                 ([no_position], "no subfaults with positions"),
@@ -334,7 +334,7 @@ class Srf(CommandLine):
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
             self.assertIn(words, done.stderr)
             self.assertFalse(os.path.exists(out))
-        for arguments in (["--damping-number", "5"], ["--fault-grid"], ["--fault-grid", "-o", out + ".csv"],
+        for arguments in (["--damping-number", "5"], ["--fault-grid"], ["--fault-grid", "-o", out + ".txt"],
                           ["--fault-grid", "--damping-number", "5", "-o", out + ".nc"]):
             done = run("event", model, *arguments)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)

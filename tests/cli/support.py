@@ -26,15 +26,16 @@ def run(*arguments, stdin=""):
     return subprocess.run([PROGRAM, *arguments], input=stdin, capture_output=True, text=True, timeout=PATIENCE)
 
 
-def on_terminal(width, *command, columns=None):
-    """Runs a command on a terminal of this width. Returns its output and exit code. `columns` sets the variable COLUMNS."""
+def on_terminal(width, *command, columns=None, errors=subprocess.DEVNULL):
+    """Runs a command on a terminal of this width. Returns its output and exit code. `columns` sets the variable COLUMNS, and
+    `errors` = subprocess.STDOUT shows stderr too."""
     terminal, end = pty.openpty()
     fcntl.ioctl(end, termios.TIOCSWINSZ, struct.pack("HHHH", 40, width, 0, 0))
     environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
     if columns is not None:
         environment["COLUMNS"] = columns
     # The end stays open until all is read. If the program were the last to close it, Linux might lose the last lines.
-    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=end, stderr=subprocess.DEVNULL, env=environment) as process:
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=end, stderr=errors, env=environment) as process:
         printed, ended, ready = b"", False, []
         while ready or not ended:
             ended = process.poll() is not None

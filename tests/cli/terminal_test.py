@@ -6,7 +6,7 @@ import re
 import subprocess
 import unittest
 
-from support import PATIENCE, PROGRAM, SOURCE, CommandLine, on_terminal
+from support import PATIENCE, PROGRAM, SOURCE, CommandLine, on_terminal, run
 
 CASES = os.path.join(SOURCE, "cases")
 WIDTHS = (80, 100, 200)
@@ -101,6 +101,15 @@ class Terminal(CommandLine):
         narrow = self.shown(40, "event", path, "--quiet")
         self.assert_fits(narrow, 40)
         self.assertRegex(narrow, r"(?m)^Zürich ± [a-z ]+… +2 km/s$")
+
+    def test_messages_fit_a_terminal_and_stay_one_line_in_a_pipe(self):
+        table = self.file("t.csv", "name,rupture_velocity\nA,2 units of a very long name\n")
+        for arguments in (("event", table), ("laboratory", table, "--poisson-ratio", "0.35", "--s-wave-speed", "1300 m/s", "--columns", "no.toml")):
+            done = run(*arguments)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            text, _ = on_terminal(60, PROGRAM, *arguments, errors=subprocess.STDOUT)
+            self.assertIn(" ".join(done.stderr.split()), " ".join(text.split()))
+            self.assert_fits(text, 60)
 
     def test_the_terminal_does_not_change_json_and_csv(self):
         for arguments in (("event", "--json"), ("event", "--csv"), ("relations", "--stress", "1:2:3", "--csv")):

@@ -160,6 +160,21 @@ class Figures(PythonCommands):
         np.testing.assert_array_equal(spectrum.lines[0].get_xydata(), [[1, 2], [2, 1]])
         self.assertEqual(len(plots.plane(rupture.drop_dims("frequency")).axes), 7)
 
+    def test_maps_of_a_plane_have_one_axis_of_y(self):
+        x = np.linspace(-1e4, 1e4, 12)
+        fields = {name: (("time", "y", "x"), np.ones((1, 12, 12))) for name in ("slip", "slip_velocity")}
+        rupture = xr.Dataset({**fields, "rupture_time": (("y", "x"), np.ones((12, 12))), "moment_rate": ("series_time", [0.0, 1.0])},
+                             {"time": [0.0], "x": ("x", x, {"units": "m"}), "y": ("y", x, {"units": "m"}), "series_time": [0.0, 1.0]})
+        figure = plots.plane(rupture)
+        prefix_axes(figure)
+        figure.canvas.draw()
+        first, *others = figure.axes[:3]
+        self.assertIn("km", first.get_ylabel())
+        self.assertIn("\N{MINUS SIGN}5", [tick.get_text() for tick in first.get_yticklabels()])
+        for axes in others:
+            self.assertEqual(axes.get_ylim(), first.get_ylim())
+            self.assertFalse(any(tick.label1.get_visible() for tick in axes.yaxis.get_major_ticks()))
+
     def test_fault(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "grid.nc")

@@ -57,22 +57,22 @@ def plane(rupture, time: int = -1) -> Picture:
     7
     """
     figure = Picture(figsize=(8, 5.8))
-    grid = figure.add_gridspec(2, 6, height_ratios=(1.3, 1))
-    panels = [figure.add_subplot(grid[0, 2 * i:2 * i + 2]) for i in range(3)]
+    maps, curves = figure.subfigures(2, 1, height_ratios=(1.1, 1))
+    panels = maps.subplots(1, 3, sharex=True, sharey=True)
     for axes, name, symbol in zip(panels, ("slip_velocity", "slip"), ("W", "slip")):
         values = rupture[name].isel(time=time).rename(symbol)
-        _map(figure, axes, rupture, values, **colours(values.values))
-    _map(figure, panels[2], rupture, rupture["rupture_time"], cmap="viridis_r")
+        _map(maps, axes, rupture, values, **colours(values.values))
+    _map(maps, panels[2], rupture, rupture["rupture_time"], cmap="viridis_r")
     arrived = rupture["rupture_time"].values
     if numpy.isfinite(arrived).any() and numpy.nanmax(arrived) > numpy.nanmin(arrived):
         panels[2].contour(rupture["x"], rupture["y"], arrived, levels=CONTOURS, colors="white", linewidths=0.6)
     panels[0].set_ylabel(label(rupture["y"]))
     has_spectrum = set(SPECTRUM) <= set(rupture.variables)
-    rate = figure.add_subplot(grid[1, :3] if has_spectrum else grid[1, :])
+    rate, *spectrum = curves.subplots(1, 1 + has_spectrum, squeeze=False)[0]
     rate.plot(rupture["series_time"], rupture["moment_rate"])
     rate.axvline(float(rupture["time"][time]), color="0.5", linewidth=0.8, linestyle=":")
-    rate.set(xlabel=label(rupture["series_time"]), ylabel=label(rupture["moment_rate"]))
-    if has_spectrum:
-        draw_spectrum(figure.add_subplot(grid[1, 3:]), rupture)
+    rate.set(xlabel=label(rupture["series_time"]), ylabel=label(rupture["moment_rate"], "moment rate"))
+    for axes in spectrum:
+        draw_spectrum(axes, rupture)
     figure.suptitle(title_of(rupture))
     return figure

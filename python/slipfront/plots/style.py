@@ -9,7 +9,7 @@ import re
 import matplotlib
 import numpy
 from matplotlib.figure import Figure
-from matplotlib.ticker import AutoLocator, FuncFormatter, LogFormatter
+from matplotlib.ticker import AutoLocator, Formatter, FuncFormatter, LogFormatter
 
 from .._files import isolated, write_bytes
 from .._slipfront import event_quantities, printable, relations_quantities
@@ -108,7 +108,7 @@ def prefix_axes(figure) -> None:
         if is_log:
             plain_numbers(axis, factor)
             continue
-        axis.set_major_formatter(FuncFormatter(lambda value, _, factor=factor: f"{value / factor:.4g}"))
+        axis.set_major_formatter(FuncFormatter(lambda value, _, factor=factor: Formatter.fix_minus(f"{value / factor:.4g}")))
         if math.log10(factor) % 1:
             axis.set_major_locator(TicksIn(factor))
 
@@ -240,5 +240,5 @@ def scaled(axis, variable, text, values) -> None:
     if power:
         factor, name = f"10{str(power).translate(POWERS)}", unit(variable)
         text = f"{text.removesuffix(name)}{factor} {name}" if name else f"{text}, {factor}"
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 10.0**power:.4g}"))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: Formatter.fix_minus(f"{value / 10.0**power:.4g}")))
     axis.set_label_text(text)

@@ -22,13 +22,16 @@ struct RockLayer {
 
 /// A subfault. Positions are those of its centre. A value is absent if its column is missing or holds a placeholder.
 struct FaultPatch {
-  double longitude = 0, latitude = 0;       ///< degrees
-  double east = 0, north = 0, depth = 0;    ///< m, from the epicentre at the surface; depth is positive downwards
-  double slip = 0;                          ///< m, as written
-  std::optional<double> rake = {};          ///< degrees
-  std::optional<double> rise_time = {};     ///< s
-  std::optional<double> rupture_time = {};  ///< s, as written; it may be negative
-  std::size_t row = 0;                      ///< index in Observation::subfaults
+  double longitude = 0, latitude = 0;        ///< degrees
+  double east = 0, north = 0, depth = 0;     ///< m, from the epicentre at the surface; depth is positive downwards
+  double slip = 0;                           ///< m, as written
+  std::optional<double> rake = {};           ///< degrees
+  std::optional<double> rise_time = {};      ///< s
+  std::optional<double> rupture_time = {};   ///< s, as written; it may be negative
+  std::optional<double> area = {};           ///< m^2; by default that of all subfaults of the segment
+  std::optional<double> shear_modulus = {};  ///< Pa; by default that of `FaultModel::rock`
+  std::optional<double> density = {};        ///< kg/m^3
+  std::size_t row = 0;                       ///< index in Observation::subfaults
 };
 
 /// A planar segment.
@@ -55,11 +58,20 @@ struct FaultModel {
   std::vector<std::string> notes;          ///< decisions about the positions, one line each
 };
 
-/// Reads a model in .fsp format, like read_fsp. \throws InputError as read_fsp.
+/// Whether the text is a finite-fault model in one of the formats that read_fault_model reads.
+bool is_fault_model(std::string_view text);
+
+/// Reads a model: .fsp, SRF, GeoJSON or .param of the USGS, .rupt of MudPy, or CSV of subfaults. The text decides
+/// which. A text of none of them is read as .fsp. \throws InputError.
 FaultModel read_fault_model(std::string_view text, const std::string& file);
 
-/// Computes `Subfault::moment_share` of all subfaults. Without a velocity table the shear modulus is uniform, and
-/// without sizes the areas are equal. Returns the moment in N m; 0 without a velocity table or sizes.
+/// Sets the slip of an observation in m, and its slip velocity if the rise time in s is known. Adds a warning for what
+/// is not positive or out of range.
+void give_slip(Observation& observation, double slip, std::optional<double> rise_time);
+
+/// Computes `Subfault::moment_share` of all subfaults. Without shear moduli that is uniform, and without
+/// sizes the areas are equal. Returns the moment in N m; 0 without
+/// shear moduli or sizes.
 double share_moment(FaultModel& model);
 
 /// The layer at a depth in m. Above the first layer it is the first. `rock` must not be empty.

@@ -17,6 +17,8 @@ struct Format {
   TableNotes (*read)(std::string_view text, const std::string& file, const Sink& sink, const TableOptions& options);
 };
 
+extern const Format fault_format;  ///< finite-fault models
+
 /// Like describe_table, for a text that is known to be CSV.
 TableDescription describe_csv(std::string_view text, const std::string& file, const TableOptions& options);
 

@@ -170,7 +170,8 @@ void CsvTable::require_readable() const {
     if (c.refusal) refuse(*c.refusal);
   if (describes_subfaults())
     refuse({.problem = "a table of subfaults (slip at positions and depths), not of events",
-            .allowed = "one event a row; a finite-fault model is read from its .fsp file"});
+            .allowed = "one event a row; or, for each subfault, longitude, latitude, depth, length, width, strike, dip "
+                       "and slip"});
   const auto has = [&](auto&& is_wanted) {
     return std::any_of(layout_.columns.begin(), layout_.columns.end(), is_wanted);
   };

@@ -119,15 +119,12 @@ std::optional<double> given(const fsp::Field& field, const std::string& key, dou
   return std::nullopt;
 }
 
-bool is_positive(double value) { return std::isfinite(value) && value > 0; }
-
 void Reader::fill_velocities(Observation& out) const {
   if (const auto v = given(header_.rupture_velocity_km_s, "avVr", 99, out.warnings)) {
     out.rupture_velocity_m_s = MeasuredValue{*v * fsp::m_per_km, *v * fsp::m_per_km};
   }
   std::optional<double> rise = given(header_.rise_time, "avTr", 900, out.warnings);
   if (!rise) rise = tables_.mean_rise_time(out.warnings);
-  if (rise) out.rise_time = MeasuredValue{*rise, *rise};
 
   const double slip = tables_.mean_slip(header_, out.warnings);
   if (!std::isfinite(slip)) {
@@ -137,18 +134,7 @@ void Reader::fill_velocities(Observation& out) const {
                       .problem = "the mean is out of range",
                       .allowed = "slip and sizes with a finite mean"});
   }
-  if (slip <= 0) {
-    out.warnings.push_back("mean slip = " + shortest(slip) + " m is not positive: not given");
-    return;
-  }
-  out.slip = MeasuredValue{slip, slip};
-  if (!rise) {
-    out.warnings.push_back("no rise time: slip velocity not given");
-  } else if (const double velocity = slip / *rise; is_positive(velocity)) {
-    out.slip_velocity_m_s = MeasuredValue{velocity, velocity};
-  } else {
-    out.warnings.push_back("slip / rise time is out of range: slip velocity not given");
-  }
+  give_slip(out, slip, rise);
 }
 
 Observation Reader::finish() {
@@ -220,25 +206,12 @@ void read(std::string_view text, Reader& reader) {
 
 }  // namespace
 
-Observation read_fsp(std::string_view text, const std::string& file) {
-  Reader reader(file);
-  read(text, reader);
-  return reader.finish_model().observation;
-}
-
-FaultModel read_fault_model(std::string_view text, const std::string& file) {
+FaultModel fsp::read_model(std::string_view text, const std::string& file) {
   Reader reader(file);
   read(text, reader);
   return reader.finish_model();
 }
 
-extern const Format fsp_format;
-const Format fsp_format{.ending = ".fsp",
-                        .looks_like = [](std::string_view text) { return first_character(text) == '%'; },
-                        .read =
-                            [](std::string_view text, const std::string& file, const Sink& sink, const TableOptions&) {
-                              sink({read_fsp(text, file), {}});
-                              return TableNotes{};
-                            }};
+Observation read_fsp(std::string_view text, const std::string& file) { return fsp::read_model(text, file).observation; }
 
 }  // namespace slipfront::catalogue

@@ -15,6 +15,9 @@ namespace slipfront::catalogue::fsp {
 
 inline constexpr double m_per_km = 1000;
 
+/// Reads a model. \throws InputError when the text is cut, empty or not such a model.
+FaultModel read_model(std::string_view text, const std::string& file);
+
 // Text (fsp_text.cpp). Control characters count as blanks. No function depends on the locale.
 
 /// The file and the line that the reader has reached, for error messages.

@@ -1,43 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "events/catalogue/fault_geometry.hpp"
 #include "events/catalogue/fsp/fsp.hpp"
 
 namespace slipfront::catalogue::fsp {
 namespace {
-
-constexpr double least_gap = 10;  // m; depths that differ by less are one row, because files round positions
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-
-/// Sorts the subfaults into rows of equal depth, and each row in the direction of strike. Returns the number of rows,
-/// or 0 if the rows have different lengths.
-std::size_t sort_into_rows(std::vector<FaultPatch>& patches, double strike) {
-  for (const FaultPatch& p : patches)
-    if (!std::isfinite(p.east) || !std::isfinite(p.north) || !std::isfinite(p.depth)) return 0;
-  if (patches.empty()) return 0;
-  const auto along = [&](const FaultPatch& p) {
-    return p.east * std::sin(radians(strike)) + p.north * std::cos(radians(strike));
-  };
-  std::vector<FaultPatch> sorted = patches;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const FaultPatch& a, const FaultPatch& b) { return a.depth < b.depth; });
-  double widest = 0;
-  for (std::size_t i = 1; i < sorted.size(); ++i) widest = std::fmax(widest, sorted[i].depth - sorted[i - 1].depth);
-  std::size_t rows = 0, length = 0;
-  for (std::size_t from = 0, to = 0; from < sorted.size(); from = to, ++rows) {
-    while (++to < sorted.size() && sorted[to].depth - sorted[to - 1].depth <= std::fmax(widest / 2, least_gap)) {
-    }
-    if (rows == 0) length = to;
-    if (to - from != length) return 0;
-    std::stable_sort(sorted.begin() + static_cast<std::ptrdiff_t>(from),
-                     sorted.begin() + static_cast<std::ptrdiff_t>(to),
-                     [&](const FaultPatch& a, const FaultPatch& b) { return along(a) < along(b); });
-  }
-  patches = std::move(sorted);
-  return rows;
-}
 
 /// Whether positions are those of upper edges. The depth of the upper edge of the segment decides. If it does not, the
 /// text of the file decides. Files that give neither have centres.
@@ -51,18 +19,6 @@ bool are_tops(const FaultSegment& segment, std::optional<double> top, std::optio
     if (std::fabs(below - 1) < 0.25) return false;
   }
   return stated.value_or(false);
-}
-
-/// Moves positions from the upper edges of subfaults to their centres.
-void move_to_centres(FaultSegment& segment) {
-  const double half = *segment.cell_width / 2, dip = radians(*segment.dip), strike = radians(*segment.strike);
-  const double east = half * std::cos(dip) * std::cos(strike), north = -half * std::cos(dip) * std::sin(strike);
-  for (FaultPatch& p : segment.patches) {
-    p.longitude += east / (m_per_degree * std::cos(radians(p.latitude)));
-    p.latitude += north / m_per_degree;
-    p.east += east, p.north += north;
-    p.depth += half * std::sin(dip);
-  }
 }
 
 /// Whether latitude and longitude contradict `east` and `north`, and agree if these two are exchanged. Most older files
@@ -134,33 +90,3 @@ void SubfaultTables::fill(const Header& header, FaultModel& out) const {
 }
 
 }  // namespace slipfront::catalogue::fsp
-
-namespace slipfront::catalogue {
-
-double share_moment(FaultModel& model) {
-  const bool sized = std::all_of(model.segments.begin(), model.segments.end(),
-                                 [](const FaultSegment& s) { return s.cell_length && s.cell_width; });
-  std::vector<double> moments(model.observation.subfaults.size(), 0);
-  double sum = 0;
-  for (const FaultSegment& segment : model.segments)
-    for (const FaultPatch& p : segment.patches) {
-      double modulus = 1;
-      if (!model.rock.empty()) {
-        const RockLayer& layer = rock_at(model.rock, p.depth);
-        modulus = layer.density * layer.s_wave_speed * layer.s_wave_speed;
-      }
-      moments[p.row] = modulus * (sized ? *segment.cell_length * *segment.cell_width : 1) * std::fabs(p.slip);
-      sum += moments[p.row];
-    }
-  for (std::size_t i = 0; i < moments.size(); ++i)
-    if (sum > 0) model.observation.subfaults[i].moment_share = moments[i] / sum;
-  return sized && !model.rock.empty() ? sum : 0;
-}
-
-const RockLayer& rock_at(const std::vector<RockLayer>& rock, double depth) {
-  std::size_t at = 0;
-  while (at + 1 < rock.size() && rock[at + 1].top <= depth) ++at;
-  return rock[at];
-}
-
-}  // namespace slipfront::catalogue

@@ -101,7 +101,7 @@ Observation event_of(const Json& p, const std::string& file, const std::string& 
   if (!is_observed(o))
     throw InputError({.line = 1,
                       .problem = event_text(o, p) + " has no quantity that slipfront uses",
-                      .allowed = "a finite-fault model of it (.fsp), or a table with its velocities"});
+                      .allowed = "a finite-fault model of it, or a table with its velocities"});
   if (o.name.empty()) o.name = id.empty() ? file : id;
   return o;
 }
@@ -138,7 +138,7 @@ TableNotes read_json(std::string_view text, const std::string& file, const Sink&
     throw InputError({.file = file,
                       .line = 1,
                       .problem = "the subfaults of a finite-fault model",
-                      .allowed = "an event; the model itself is read from its .fsp file"});
+                      .allowed = "an event; or subfaults as polygons with slip"});
   for (const Json& feature : *features) pass_event(feature, file, sink);
   return {};
 }

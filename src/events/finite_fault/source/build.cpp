@@ -37,7 +37,7 @@ double Builder::s_wave_speed_at_hypocentre() const {
       .s_wave_speed;
 }
 
-SourcePoint Builder::point(const FaultPatch& from) const {
+SourcePoint Builder::point(const FaultPatch& from, double cell_area) const {
   SourcePoint out{.longitude = from.longitude,
                   .latitude = from.latitude,
                   .depth = from.depth,
@@ -51,6 +51,11 @@ SourcePoint Builder::point(const FaultPatch& from) const {
   if (!model_.rock.empty()) {
     const catalogue::RockLayer& layer = catalogue::rock_at(model_.rock, from.depth);
     out.s_wave_speed = layer.s_wave_speed, out.density = layer.density;
+  }
+  if (from.shear_modulus) {
+    out.density = from.density.value_or(default_density_);
+    // All subfaults of a segment get one size. The modulus takes up the difference, so that the moment stays.
+    out.s_wave_speed = std::sqrt(*from.shear_modulus * from.area.value_or(cell_area) / cell_area / out.density);
   }
   return out;
 }
@@ -86,7 +91,7 @@ SourceSegment Builder::plane(const FaultSegment& from) const {
       across * std::cos(radians(*from.strike)) / (catalogue::m_per_degree * std::cos(radians(out.latitude)));
   out.latitude += across * std::sin(radians(*from.strike)) / catalogue::m_per_degree;
   out.top = std::fmax(0, out.top - half * std::sin(radians(*from.dip)));
-  for (const FaultPatch& patch : from.patches) out.points.push_back(point(patch));
+  for (const FaultPatch& patch : from.patches) out.points.push_back(point(patch, out.cell_area()));
   for (const SourcePoint& p : out.points)
     if (!std::isfinite(p.rake)) refuse(from.line, "RAKE", "no rake", "a column RAKE, or RAKE of Mech");
   return out;
@@ -117,6 +122,13 @@ void Builder::place_hypocentre(FiniteSource& out) const {
                                 segment.cell_width / 2;
 }
 
+std::string Builder::rock_note() const {
+  if (model_.segments.front().patches.front().shear_modulus) return "shear modulus of each subfault from the file";
+  if (!model_.rock.empty()) return "shear modulus from the velocity table at the depth of each subfault";
+  return "no velocity table: shear modulus " + digits(default_density_ * std::pow(default_s_wave_speed_, 2), 4) +
+         " Pa everywhere, with S speed " + digits(default_s_wave_speed_, 4) + " m/s";
+}
+
 FiniteSource Builder::planes() {
   if (model_.segments.empty())
     refuse(model_.observation.line, "X", "no subfaults with positions", "columns X==EW, Y==NS and Z");
@@ -137,11 +149,7 @@ FiniteSource Builder::planes() {
   if (!std::isfinite(out.moment))
     refuse(model_.segments.front().line, "SLIP", "the moment is not finite", "finite slip and sizes");
   place_hypocentre(out);
-  out.notes.push_back(model_.rock.empty()
-                          ? "no velocity table: shear modulus " +
-                                digits(default_density_ * std::pow(default_s_wave_speed_, 2), 4) +
-                                " Pa everywhere, with S speed " + digits(default_s_wave_speed_, 4) + " m/s"
-                          : "shear modulus from the velocity table at the depth of each subfault");
+  out.notes.push_back(rock_note());
   out.notes.push_back("moment " + digits(out.moment, 7) + " N m" +
                       (model_.moment ? "; the header states " + digits(*model_.moment, 4) + " N m" : std::string()));
   if (backwards > 0)

@@ -26,8 +26,9 @@ class Builder {
 
  private:
   SourceSegment plane(const catalogue::FaultSegment& from) const;
-  SourcePoint point(const catalogue::FaultPatch& from) const;
+  SourcePoint point(const catalogue::FaultPatch& from, double cell_area) const;
   void place_hypocentre(FiniteSource& out) const;
+  std::string rock_note() const;
   [[noreturn]] void refuse(std::size_t line, const std::string& key, const std::string& problem,
                            const std::string& allowed) const;
 

@@ -199,11 +199,15 @@ std::string plane_text(const SourceSegment& s) {
                   s.has_hypocentre ? km * s.hypocentre_down_dip : no_hypocentre});
 }
 
-void add_point(std::string& text, const FiniteSource& source, const SourceSegment& s, const SourcePoint& p) {
+void add_point(std::string& text, const FiniteSource& source, const SourceSegment& s, const SourcePoint& p,
+               SrfVersion version) {
   const std::vector<double> rates = slip_rates(source, p);
   text += place_of(p.longitude, p.latitude);
-  text += line_of({km * p.depth, s.strike, s.dip, cm2 * s.cell_area(), p.rupture_time, source.time_step,
-                   cm * p.s_wave_speed, g_per_cm3 * p.density});
+  text += line_of({km * p.depth, s.strike, s.dip, cm2 * s.cell_area(), p.rupture_time, source.time_step});
+  if (version == SrfVersion::v2) {
+    text.back() = ' ';
+    text += line_of({cm * p.s_wave_speed, g_per_cm3 * p.density});
+  }
   text += digits(p.rake, precision) + " " + digits(cm * p.slip, precision) + " " + std::to_string(rates.size()) +
           " 0 0 0 0\n";
   for (std::size_t i = 0; i < rates.size(); ++i) {
@@ -214,20 +218,16 @@ void add_point(std::string& text, const FiniteSource& source, const SourceSegmen
 
 }  // namespace
 
-std::string srf_text(const FiniteSource& source, const std::string& history) {
-  std::string text = "2.0\n" + comment(source.name) + comment(history);
+std::string srf_text(const FiniteSource& source, const std::string& history, SrfVersion version) {
+  std::string text = (version == SrfVersion::v2 ? "2.0\n" : "1.0\n") + comment(source.name) + comment(history);
   for (const std::string& note : source.notes) text += comment(note);
   text += "PLANE " + std::to_string(source.segments.size()) + "\n";
   for (const SourceSegment& segment : source.segments) text += plane_text(segment);
   for (const SourceSegment& segment : source.segments) {
     text += "POINTS " + std::to_string(segment.points.size()) + "\n";
-    for (const SourcePoint& point : segment.points) add_point(text, source, segment, point);
+    for (const SourcePoint& point : segment.points) add_point(text, source, segment, point, version);
   }
   return text;
-}
-
-void write_srf(const std::string& path, const FiniteSource& source, const std::string& history) {
-  write_text(path, srf_text(source, history));
 }
 
 }  // namespace slipfront::record

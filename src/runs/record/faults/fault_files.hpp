@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Writes a kinematic source and its static stress drop as grids, for those who model dynamic ruptures, and in the
-/// Standard Rupture Format, version 2.0 (Graves 2014).
+/// Standard Rupture Format (Graves 2014).
 
 #include <string>
 
@@ -14,10 +14,11 @@ namespace slipfront::record {
 void write_fault_grid(const std::string& path, const finite_fault::FiniteSource& source, const std::string& version,
                       const std::string& history);
 
-/// The text of the file. Its comments hold `history` and the notes of the source.
-std::string srf_text(const finite_fault::FiniteSource& source, const std::string& history);
+/// Version 1.0 has no rock. The reader chooses the shear modulus.
+enum class SrfVersion { v1, v2 };
 
-/// Writes it completely or not at all. \throws FileError with path and reason.
-void write_srf(const std::string& path, const finite_fault::FiniteSource& source, const std::string& history);
+/// The text of the file. Its comments hold `history` and the notes of the source.
+std::string srf_text(const finite_fault::FiniteSource& source, const std::string& history,
+                     SrfVersion version = SrfVersion::v2);
 
 }  // namespace slipfront::record
