@@ -30,9 +30,9 @@ std::pair<double, double> trial_range(const Domain& domain, double reach,
 
 void read_friction(const Document& document, const TableReader& tables, const RawStress& raw, Scenario& scenario);
 void read_medium(const Document& document, medium::Constants& medium);
-/// Stiffness of the springs in the unit of the model, and that unit, which depends on the sites that they pull.
-std::optional<double> stiffness_of(const Section& section);
-ModelUnit unit_of_stiffness(const Section& section);
+void read_loading(const Document& document, const TableReader& tables, Scenario& scenario);
+/// Unit of the stiffness of springs, which depends on the sites that they pull.
+ModelUnit unit_of_stiffness(const Section& loading);
 
 /// The line or plane on which friction acts, in x and y of the scenario.
 struct Interface {
@@ -63,6 +63,10 @@ class AlongReader {
   const TableReader& tables_;
   Interface interface_;
 };
+
+/// The key "stiffness" or "velocity" of [loading] in the unit of the model. `at` is null unless it varies.
+/// \throws InputError if it is missing or not allowed; it names the position if it varies.
+friction::AlongInterface read_springs(const Section& loading, const AlongReader& reader, std::string_view key);
 
 /// Parameters of friction as a laboratory gives them, in the model's units (docs/friction.md, "In SI units"): a text
 /// with a unit, or, where [friction] has a `normal_stress`, forces as friction coefficients. A parameter and the normal

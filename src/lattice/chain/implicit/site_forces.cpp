@@ -20,6 +20,13 @@ SiteForces::SiteForces(const Problem& p, ChainState& now, const Ranks& ranks)
   for (std::size_t j = 0; variables_ > 0 && j < sites(); ++j)
     p.friction.start(x(j), 0, std::span(now.state).subspan(variables_ * j, variables_));
   start_contacts(now);
+  place_springs();
+}
+
+void SiteForces::place_springs() {
+  const Loading& l = problem_.loading;
+  for (std::size_t j = 0; l.stiffness_at && j < sites(); ++j) stiffness_.push_back(l.stiffness_at(x(j)));
+  for (std::size_t j = 0; l.velocity_at && j < sites(); ++j) velocity_.push_back(l.velocity_at(x(j)));
 }
 
 void SiteForces::start_contacts(ChainState& now) {
@@ -47,8 +54,11 @@ double SiteForces::forcing(const ChainState& m, std::size_t j) const {
 SiteForces::Drives SiteForces::drives_of_ends(double time) const {
   const Problem& p = problem_;
   if (!springs_.holds_an_end() || p.friction.steep_at_rest()) return {};
-  const double pulled = p.loading.where == Pulled::everywhere ? p.loading.stiffness * p.loading.velocity * time : 0;
-  const auto at = [&](double x) { return (p.forcing ? p.forcing(x, time) : 0) + pulled; };
+  const auto at = [&](double x) {
+    const Loading& l = p.loading;
+    const double pulled = l.where == Pulled::everywhere ? l.stiffness_of(x) * l.velocity_of(x) * time : 0;
+    return (p.forcing ? p.forcing(x, time) : 0) + pulled;
+  };
   return {at(p.grid.x(0)), at(p.grid.x(p.grid.sites - 1))};
 }
 
