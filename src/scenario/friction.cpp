@@ -95,8 +95,9 @@ double FrictionUnits::si_of(const Parameter& p) const {
 }
 
 friction::AlongInterface FrictionUnits::in_model(const Parameter& p) const {
-  const Limits limits{.least = p.least, .most = p.most, .without_least = p.without_least};
   const Value* const value = friction_.find(p.name);
+  const bool age_varies = value && varies(*value) && p.name == "contact_time";  // only the number 0 means no age
+  const Limits limits{.least = p.least, .most = p.most, .without_least = p.without_least || age_varies};
   if (value && varies(*value)) {
     const bool force = p.dimension == Dimension::force, coefficient = force && friction_.has(normal_stress);
     const bool in_units = !coefficient && (!force || (p.unit == friction::force_unit && !has_curve()));
@@ -108,7 +109,8 @@ friction::AlongInterface FrictionUnits::in_model(const Parameter& p) const {
   const double number = uniform(p);
   if (!limits.hold(number) && !std::isnan(number))  // NaN: the constants of the medium have an error
     throw friction_.refuse(p.name, "out of range", limits.text());
-  const bool stress = value && value->kind == Value::Kind::text && p.dimension == Dimension::force;
+  const bool stress = value && value->kind == Value::Kind::text &&
+                      (p.dimension == Dimension::force || p.dimension == Dimension::pressure);
   if (!share_ || !stress) return {nullptr, number, number};
   return along_.in_range([share = share_->at, number](double x, double y) { return number / share(x, y); });
 }

@@ -23,7 +23,7 @@ double uniform_stiffness(const Section& section) {
   if (!area) return *section.number_in("stiffness", unit);
   const double square_metres = section.quantity("area", *area, medium::Dimension::area);
   if (!(square_metres > 0)) throw section.refuse("area", "not positive", "> 0");
-  if (value->kind != Value::Kind::text)
+  if (!value || value->kind != Value::Kind::text)
     throw section.refuse("area", "it needs a loading.stiffness in N/m", "leave it out, or stiffness = \"1e6 N/m\"");
   const double spring = section.quantity("stiffness", *value, medium::Dimension::spring);
   if (!(spring > 0)) throw section.refuse("stiffness", "not positive", "> 0");
@@ -39,11 +39,11 @@ ModelUnit unit_of_stiffness(const Section& section) {
 friction::AlongInterface read_springs(const Section& section, const AlongReader& reader, std::string_view key) {
   const bool stiffness = key == "stiffness";
   const Value* const value = section.find(key);
-  if (!value)
+  if (!value && !(stiffness && section.has("area")))
     throw section.refuse(
         key, "missing",
         stiffness ? "> 0: the force of the springs over their stretch" : "a finite number: of the springs' far ends");
-  if (!varies(*value)) {
+  if (!value || !varies(*value)) {
     const double number = stiffness ? uniform_stiffness(section) : *section.number(key);
     return {nullptr, number, number};
   }
@@ -72,18 +72,12 @@ void read_loading(const Document& document, const TableReader& tables, Scenario&
     if (!along.at) return nullptr;
     return [at = along.at](double x) { return at(x, 0); };
   };
-  Errors errors;
-  errors.attempt([&] {
-    const friction::AlongInterface along = read_springs(section, reader, "stiffness");
-    loading.stiffness = along.most;
-    loading.stiffness_at = on_line(along);
-  });
-  errors.attempt([&] {
-    const friction::AlongInterface along = read_springs(section, reader, "velocity");
-    loading.velocity = std::fabs(along.least) > std::fabs(along.most) ? along.least : along.most;
-    loading.velocity_at = on_line(along);
-  });
-  errors.throw_if_any();
+  const friction::AlongInterface stiffness = read_springs(section, reader, "stiffness");
+  const friction::AlongInterface velocity = read_springs(section, reader, "velocity");
+  loading.stiffness = stiffness.most;
+  loading.stiffness_at = on_line(stiffness);
+  loading.velocity = std::fabs(velocity.least) > std::fabs(velocity.most) ? velocity.least : velocity.most;
+  loading.velocity_at = on_line(velocity);
   section.read("where", loading.where);
   constexpr double times_loading = 10;
   loading.event_velocity = times_loading * std::fabs(loading.velocity);

@@ -79,7 +79,7 @@ class SiteForces {
 
   double contact_squared(const ChainState& m, std::size_t j) const { return m.a2.empty() ? all_contact_ : m.a2[j]; }
   double effective_stress(const ChainState& m, std::size_t j) const {
-    return contacts_.act() ? contacts_.share(m.excess[j]) : 1;
+    return contacts_.act() ? contacts_at(m, j).share(m.excess[j]) : 1;
   }
   /// Stiffness of the spring that loads a site, per length.
   double pull(std::size_t site) const {
@@ -138,13 +138,18 @@ class SiteForces {
  private:
   void start_contacts(ChainState& now);
   void place_springs();
+  /// The contacts of a site, whose numbers may vary.
+  friction::Contacts contacts_at(const ChainState& m, std::size_t j) const {
+    if (!problem_.friction.contacts_vary()) return contacts_;
+    return problem_.friction.contacts_at(friction::LocalState(m.state).subspan(variables_ * j, variables_));
+  }
 
   Problem problem_;
   std::size_t variables_;
   bool rubs_;
   CompactSprings springs_;
-  double all_contact_;  ///< a^2 where it is the same everywhere
-  friction::Contacts contacts_;
+  double all_contact_;           ///< a^2 where it is the same everywhere
+  friction::Contacts contacts_;  ///< with the largest of numbers that vary
   std::vector<double> base_;  ///< a^2 of contacts without age and pores without pressure; empty unless contacts change
   std::vector<double> first_u_;
   std::vector<double> stiffness_, velocity_;  ///< the springs have these; empty unless they vary
