@@ -26,19 +26,22 @@ struct NamedNumber {
   const char *key, *meaning;
   std::string_view unit, si_unit;
   std::optional<double> value;
+  std::optional<scenario::Range> range = {};
 };
 
 std::vector<NamedNumber> named(const scenario::Numbers& n) {
   using scenario::ModelUnit;
-  return {
-      {"least_stable_position", "least stable position", scenario::symbol_of(ModelUnit::position), "m", n.position},
-      {"strength_over_direct_effect", "f_0 / a", "", "", n.strength_over_direct_effect},
-      {"critical_stiffness", "critical stiffness", scenario::symbol_of(ModelUnit::stiffness), "Pa/m",
-       n.critical_stiffness},
-      {"stiffness_ratio", "stiffness over the critical one", "", "", n.stiffness_ratio},
-      {"nucleation_length", "nucleation length", scenario::symbol_of(ModelUnit::position), "m", n.nucleation_length},
-      {"length", "length of the domain", scenario::symbol_of(ModelUnit::position), "m", n.length},
-      {"dislocations", "dislocations at t = 0", "", "", n.dislocations}};
+  return {{"least_stable_position", "least stable position", scenario::symbol_of(ModelUnit::position), "m", n.position},
+          {"least_stable_y", "its y", scenario::symbol_of(ModelUnit::position), "m", n.position_y},
+          {"strength_over_direct_effect", "f_0 / a", "", "", n.strength_over_direct_effect,
+           n.strength_over_direct_effect_range},
+          {"critical_stiffness", "critical stiffness", scenario::symbol_of(ModelUnit::stiffness), "Pa/m",
+           n.critical_stiffness},
+          {"stiffness_ratio", "stiffness over the critical one", "", "", n.stiffness_ratio, n.stiffness_ratio_range},
+          {"nucleation_length", "nucleation length", scenario::symbol_of(ModelUnit::position), "m", n.nucleation_length,
+           n.nucleation_length_range},
+          {"length", "length of the domain", scenario::symbol_of(ModelUnit::position), "m", n.length},
+          {"dislocations", "dislocations at t = 0", "", "", n.dislocations}};
 }
 
 /// The value of a unit of the model in SI units, if [medium] determines it.
@@ -46,6 +49,22 @@ std::optional<double> unit_in_si(const scenario::Scenario& s, std::string_view s
   for (const scenario::Scale& scale : scenario::scales_of(s.medium))
     if (scale.symbol == symbol) return scale.si;
   return std::nullopt;
+}
+
+/// A number in the model's unit, and in SI units if [medium] determines it.
+std::string in_both(const scenario::Scenario& s, double value, std::string_view unit, std::string_view si_unit) {
+  const auto si = unit_in_si(s, unit);
+  return number(value) + (unit.empty() ? "" : fmt::format(" in {}", unit)) +
+         (si ? fmt::format(", {} {}", number(value * *si), si_unit) : "");
+}
+
+/// One line for the least or the largest value of a number, and where it is.
+std::string line_of(const scenario::Scenario& s, const NamedNumber& n, const char* which, const scenario::ValueAt& v) {
+  const std::string_view length = scenario::symbol_of(scenario::ModelUnit::position);
+  const auto metres = unit_in_si(s, length);
+  const auto position = [&](double x) { return number(x * metres.value_or(1)); };
+  return fmt::format("{}, {}: {}, at x = {}{} {}", n.meaning, which, in_both(s, v.value, n.unit, n.si_unit),
+                     position(v.x), s.plane ? ", y = " + position(v.y) : "", metres ? "m" : length);
 }
 
 /// Sites, memory and disk space of a chain run of the scenario, or the reason why it has none.
@@ -82,10 +101,12 @@ void print(const scenario::Scenario& s, const std::vector<scenario::Quantity>& q
   put(table.text() + "\n");
   for (const NamedNumber& n : named(numbers)) {
     if (!n.value) continue;
-    const std::string line = fmt::format("{}: {}", n.meaning, number(*n.value));
-    const auto si = unit_in_si(s, n.unit);
-    put(fitted(line + (n.unit.empty() ? "" : fmt::format(" in {}", n.unit)) +
-               (si ? fmt::format(", {} {}", number(*n.value * *si), n.si_unit) : "")));
+    put(fitted(fmt::format("{}: {}", n.meaning, in_both(s, *n.value, n.unit, n.si_unit))));
+  }
+  for (const NamedNumber& n : named(numbers)) {
+    if (!n.range) continue;
+    put(fitted(line_of(s, n, "least", n.range->least)));
+    put(fitted(line_of(s, n, "largest", n.range->largest)));
   }
   put(fitted("cost: " + cost_of(s)) + "\n");
 }
@@ -105,6 +126,14 @@ Json json_of_units(const scenario::Scenario& s, const std::vector<scenario::Quan
                            {"si", ::json_of(q.si)},
                            {"si_unit", q.si_unit}});
   for (const NamedNumber& n : named(numbers)) all["numbers"][n.key] = ::json_of(n.value);
+  all["ranges"] = Json::object();
+  for (const NamedNumber& n : named(numbers)) {
+    if (!n.range) continue;
+    for (const auto& [which, at] : {std::pair{"least", n.range->least}, {"largest", n.range->largest}}) {
+      all["ranges"][n.key][which] = {{"value", at.value}, {"x", at.x}};
+      if (s.plane) all["ranges"][n.key][which]["y"] = at.y;
+    }
+  }
   all["cost"] = cost_of(s);
   return all;
 }

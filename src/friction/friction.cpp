@@ -19,6 +19,13 @@ namespace slipfront::friction {
 
 namespace {
 
+constexpr std::pair<std::string_view, double Contacts::*> numbers_of_contacts[] = {
+    {"contact_ageing", &Contacts::ageing},
+    {"contact_time", &Contacts::age},
+    {"dilatancy", &Contacts::dilatancy},
+    {"drainage_time", &Contacts::drainage},
+    {"pore_pressure", &Contacts::ambient}};
+
 constexpr std::string_view name_of_pressure = "normal_stress", name_of_factor = "coefficient";
 
 /// Whether the force is proportional to the coefficient, as it has no other parameter that is a force.
@@ -80,15 +87,13 @@ Friction::Friction(const Definition& definition, std::vector<double> values, Clo
     columns_.push_back(*share);
     column_names_.emplace_back("share_of_force");
   }
-  contacts_ = std::make_shared<const Contacts>(Contacts{.ageing = parameter("contact_ageing"),
-                                                        .age = parameter("contact_time"),
-                                                        .dilatancy = parameter("dilatancy"),
-                                                        .drainage = parameter("drainage_time"),
-                                                        .ambient = parameter("pore_pressure")});
-  if (varies() && changes_contacts())
-    throw InputError({.key = varying_.begin()->first,
-                      .problem = "varies along the interface, where friction changes contacts or pores",
-                      .allowed = "a number, or friction without contact_ageing and dilatancy"});
+  Contacts contacts;
+  for (const auto& [name, member] : numbers_of_contacts) {
+    contacts.*member = parameter(name);
+    for (std::size_t c = 0; c < column_names_.size(); ++c)
+      if (column_names_[c] == name) contact_columns_.emplace_back(member, definition.state.size() + c);
+  }
+  contacts_ = std::make_shared<const Contacts>(contacts);
   at_rest_ = law_->strength(0, state_at_start());
 }
 
@@ -179,23 +184,90 @@ std::vector<double> Friction::state_at_start() const {
 
 bool Friction::changes_contacts() const { return contacts_->act(); }
 
-double Friction::contact_at_start() const {
-  return changes_contacts() ? std::sqrt(contacts_->strength(state_at_start()[0], 0)) : 1;
+Contacts Friction::contacts_at(LocalState state) const {
+  Contacts contacts = *contacts_;
+  for (const auto& [member, column] : contact_columns_) contacts.*member = state[column];
+  return contacts;
 }
 
-/// The oldest contacts are those that rest; a slip that renews them sucks at the pores, most where they do not drain.
-double Friction::contact_growth(double time) const {
+double Friction::contact_at_start(double x) const {
   if (!changes_contacts()) return 1;
+  std::vector<double> state(state_size());
+  start(x, 0, state);
+  return std::sqrt(contacts_at(state).strength(state[0], 0));
+}
+
+namespace {
+
+/// The growth of contacts that are `start` old at t = 0, renew after a slip `renewal` and rest for `time`.
+double growth_of(const Contacts& contacts, double start, double renewal, double time) {
   constexpr double fastest = 10;
   constexpr int samples = 200;
-  const double start = state_at_start()[0], oldest = start + std::fmax(time, 0);
-  const double youngest = std::fmin(start, parameter("characteristic_slip") / fastest);
+  const double oldest = start + std::fmax(time, 0), youngest = std::fmin(start, renewal / fastest);
+  const double at_start = std::sqrt(contacts.strength(start, 0));
   double most = 1;
   for (int i = 0; i <= samples; ++i) {
     const double at = youngest * std::pow(oldest / youngest, static_cast<double>(i) / samples);
-    const double excess = -contacts_->dilatancy * std::log(oldest / at);
-    most = std::fmax(most, std::sqrt(contacts_->strength(at, excess)) / contact_at_start());
+    const double excess = -contacts.dilatancy * std::log(oldest / at);
+    most = std::fmax(most, std::sqrt(contacts.strength(at, excess)) / at_start);
   }
+  return most;
+}
+
+}  // namespace
+
+std::pair<double, double> Friction::range_of(std::string_view parameter) const {
+  const auto found = varying_.find(parameter);
+  if (found != varying_.end()) return {found->second.least, found->second.most};
+  return {this->parameter(parameter), this->parameter(parameter)};
+}
+
+/// The least and the largest theta at t = 0. It is monotone in the parameters on which it depends.
+std::pair<double, double> Friction::ages_at_start() const {
+  std::pair<double, double> ages{HUGE_VAL, 0};
+  std::vector<double> state(state_size());
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    for (std::size_t c = 0, bit = 0; c < columns_.size(); ++c) {
+      const std::string& name = column_names_[c];
+      const bool counts = name == "initial_state" || name == "characteristic_slip" || name == "reference_velocity";
+      const bool least = counts && (corner >> bit++ & 1) != 0;
+      state[definition_->state.size() + c] = least ? columns_[c].least : columns_[c].most;
+    }
+    evolution().start(state);
+    ages = {std::fmin(ages.first, state[0]), std::fmax(ages.second, state[0])};
+  }
+  return ages;
+}
+
+namespace {
+
+/// Numbers from the least to the largest, at equal ratios.
+std::vector<double> numbers_between(const std::pair<double, double>& range) {
+  constexpr int steps = 16;
+  std::vector<double> numbers = {range.second};
+  for (int i = 0; range.first < range.second && i < steps; ++i)
+    numbers.push_back(range.first * std::pow(range.second / range.first, static_cast<double>(i) / steps));
+  return numbers;
+}
+
+}  // namespace
+
+/// The oldest contacts are those that rest; a slip that renews them sucks at the pores, most where they do not drain.
+/// Where numbers vary this is a bound. The growth rises with E and p_0 and falls with D_c. With the other numbers it
+/// may do both, so we try several.
+double Friction::contact_growth(double time) const {
+  if (!changes_contacts()) return 1;
+  const double renewal = range_of("characteristic_slip").first;
+  const auto [least_ageing, most_ageing] = range_of("contact_ageing");
+  double most = 1;
+  for (const double age : numbers_between(range_of("contact_time")))
+    for (const double start : numbers_between(ages_at_start()))
+      for (const double ageing : {least_ageing, most_ageing}) {
+        Contacts contacts = *contacts_;
+        contacts.age = age;
+        contacts.ageing = ageing;
+        most = std::fmax(most, growth_of(contacts, start, renewal, time));
+      }
   return most;
 }
 

@@ -8,6 +8,7 @@
 
 #include "math/digits.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/functions.hpp"
 #include "slipfront/math/elliptic.hpp"
 #include "slipfront/scenario/problem.hpp"
 #include "slipfront/theory/rupture/riemann.hpp"
@@ -323,43 +324,71 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-void add_rate_and_state(const Scenario& s, const friction::Friction& friction, Numbers& n) {
+void add_rate_and_state(const Scenario& s, const friction::Friction& friction, double x, Numbers& n) {
   const double f0 = friction.parameter("strength"), a = friction.parameter("direct_effect"),
                b = friction.parameter("evolution_effect"), slip = friction.parameter("characteristic_slip");
   if (a > 0) n.strength_over_direct_effect = f0 / a;
   if (!(b > a && slip > 0)) return;  // steady sliding is stable
-  const double v = s.loading.acts() ? s.loading.velocity : 0;
+  const double v = s.loading.acts() ? s.loading.velocity_of(x) : 0;
   const double critical = (b - a) / slip * (1 + (a > 0 ? v * v / (a * slip) : 0));
   n.critical_stiffness = critical;
   const bool everywhere = s.loading.acts() && s.loading.where == chain::Pulled::everywhere;
-  const double stiffness = everywhere ? s.loading.stiffness : 0;
+  const double stiffness = everywhere ? s.loading.stiffness_of(x) : 0;
   if (everywhere) n.stiffness_ratio = stiffness / critical;
   if (stiffness < critical) n.nucleation_length = 2 * pi / std::sqrt(critical - stiffness);
 }
 
-/// The numbers of friction at the position with the largest critical stiffness.
-Numbers numbers_where_least_stable(const Scenario& s, double left, double right) {
-  constexpr int samples = 2001;
-  Numbers least_stable;
-  for (int i = 0; i < samples; ++i) {
-    const double x = left + (right - left) * i / (samples - 1);
+void extend(std::optional<Range>& range, const std::optional<double>& value, double x, double y) {
+  if (!value) return;
+  const ValueAt there{*value, x, y};
+  if (!range) range = {there, there};
+  if (*value < range->least.value) range->least = there;
+  if (*value > range->largest.value) range->largest = there;
+}
+
+/// The numbers of friction at the position with the largest critical stiffness, and their ranges.
+Numbers numbers_along(const Scenario& s, const Extent& extent, double ratio) {
+  const bool plane = s.plane.has_value();
+  const int columns = plane ? 201 : 2001, rows = plane ? 201 : 1;
+  Numbers least_stable, ranges;
+  for (int i = 0; i < columns * rows; ++i) {
+    const int column = i % columns, row = i / columns;
+    const double x = extent.left + (extent.right - extent.left) * column / (columns - 1);
+    const double y = plane ? extent.bottom + (extent.top - extent.bottom) * row / (rows - 1) : 0;
     Numbers there;
     there.position = x;
-    add_rate_and_state(s, s.friction.at(x, 0), there);
+    if (plane) there.position_y = y;
+    add_rate_and_state(s, s.friction.at(x, y / ratio), x, there);
+    extend(ranges.strength_over_direct_effect_range, there.strength_over_direct_effect, x, y);
+    extend(ranges.stiffness_ratio_range, there.stiffness_ratio, x, y);
+    extend(ranges.nucleation_length_range, there.nucleation_length, x, y);
     if (i == 0 || there.critical_stiffness > least_stable.critical_stiffness) least_stable = there;
   }
+  least_stable.strength_over_direct_effect_range = ranges.strength_over_direct_effect_range;
+  least_stable.stiffness_ratio_range = ranges.stiffness_ratio_range;
+  least_stable.nucleation_length_range = ranges.nucleation_length_range;
   return least_stable;
+}
+
+/// The numbers of rate-and-state friction on a line or a plane.
+Numbers numbers_of_friction(const Scenario& s, const Extent& extent, double ratio) {
+  Numbers n;
+  if (s.friction.name() != "rate-and-state") return n;
+  if (s.friction.varies() || s.loading.stiffness_at || s.loading.velocity_at) return numbers_along(s, extent, ratio);
+  add_rate_and_state(s, s.friction, 0, n);
+  return n;
 }
 
 }  // namespace
 
 Numbers numbers_of(const Scenario& s) {
-  Numbers n;
-  const bool ages = s.friction.name() == "rate-and-state";
-  if (ages && !s.friction.varies()) add_rate_and_state(s, s.friction, n);
-  if (s.plane) return n;
+  if (s.plane) {
+    const plane::Problem& p = s.plane->problem;
+    const double ratio = s.plane->wave_speed_ratio;
+    return numbers_of_friction(s, {p.left, p.right, p.bottom * ratio, p.top * ratio}, ratio);
+  }
   const pulse::Problem problem = stated_problem(s);
-  if (ages && s.friction.varies()) n = numbers_where_least_stable(s, problem.left, problem.right);
+  Numbers n = numbers_of_friction(s, {problem.left, problem.right}, 1);
   n.length = problem.right - problem.left;
   if (!s.substrate) return n;
   constexpr int samples = 10000;  // midpoint rule

@@ -304,9 +304,13 @@ std::vector<std::string> files_of(const Scenario& scenario) {
   std::vector<std::string> files = {scenario.file};
   const std::filesystem::path folder = std::filesystem::path(scenario.file).parent_path();
   const Document document = read_document(scenario.text, scenario.file, {});
+  const auto add = [&](const std::string& file) { files.push_back((folder / file).string()); };
   for (const auto& [name, table] : document.tables)
-    if (const auto file = table.values.find("file"); file != table.values.end())
-      files.push_back((folder / file->second.text).string());
+    for (const auto& [key, value] : table.values) {
+      if (key == "file") add(value.text);
+      for (std::size_t i = 0; i < value.names.size(); ++i)
+        if (value.names[i] == "file") add(value.items[i].text);
+    }
   return files;
 }
 

@@ -137,9 +137,9 @@ void make_contact(const Document& document, Scenario& scenario) {
 /// Ageing contacts and pore pressure change the contact ratio at t = 0 from the value in [interface].
 void add_contacts_at_start(Scenario& scenario) {
   if (!scenario.friction.changes_contacts() || !scenario.substrate) return;
-  const double at_start = scenario.friction.contact_at_start();
-  scenario.contact_at = [at_start, given = scenario.contact_at](double x) {
-    return at_start * (given ? given(x) : 1.0);
+  const double uniform = scenario.friction.contact_at_start(0);
+  scenario.contact_at = [uniform, friction = scenario.friction, given = scenario.contact_at](double x) {
+    return (friction.varies() ? friction.contact_at_start(x) : uniform) * (given ? given(x) : 1.0);
   };
 }
 

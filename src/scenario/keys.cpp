@@ -158,6 +158,9 @@ std::vector<Key> load_keys() {
       other_key("loading", "area", KeyType::quantity, "none", "area that the springs pull, for a stiffness in N/m"),
       number_key("loading", "velocity", ModelUnit::slip_velocity, {}, "required by [loading]",
                  "velocity of the far ends of the springs"),
+      word_key(
+          "loading", "units", {"model", "SI"}, "model",
+          "units of formulas and files in place of stiffness and velocity, which may vary as numbers of [friction]"),
       word_key("loading", "where", {"everywhere", "left", "right"}, "everywhere", "sites that the springs pull"),
       number_key("loading", "event_velocity", ModelUnit::slip_velocity, above_zero, "10 times velocity",
                  "slip velocity above which a part of the chain is in an event"),

@@ -106,43 +106,7 @@ Output read_output(const Document& document, double end) {
   return output;
 }
 
-void read_loading(const Document& document, chain::Loading& loading) {
-  const Section section(document, "loading");
-  if (!section.has("velocity") && !section.has("where") && !section.has("event_velocity") &&
-      !section.has("stiffness") && !section.has("area"))
-    return;
-  const auto stiffness = stiffness_of(section);
-  if (!stiffness) throw section.refuse("stiffness", "missing", "> 0: the force of the springs over their stretch");
-  if (!section.has("velocity"))
-    throw section.refuse("velocity", "missing", "a finite number: of the springs' far ends");
-  loading.stiffness = *stiffness;
-  section.read("velocity", loading.velocity);
-  section.read("where", loading.where);
-  constexpr double times_loading = 10;
-  loading.event_velocity = times_loading * std::fabs(loading.velocity);
-  section.read("event_velocity", loading.event_velocity);
-}
-
 }  // namespace
-
-ModelUnit unit_of_stiffness(const Section& section) {
-  chain::Pulled where = chain::Pulled::everywhere;
-  section.read("where", where);
-  return where == chain::Pulled::everywhere ? ModelUnit::stiffness : ModelUnit::end_stiffness;
-}
-
-std::optional<double> stiffness_of(const Section& section) {
-  const ModelUnit unit = unit_of_stiffness(section);
-  const Value *const value = section.find("stiffness"), *const area = section.find("area");
-  if (!area) return section.number_in("stiffness", unit);
-  const double square_metres = section.quantity("area", *area, medium::Dimension::area);
-  if (!(square_metres > 0)) throw section.refuse("area", "not positive", "> 0");
-  if (!value || value->kind != Value::Kind::text)
-    throw section.refuse("area", "it needs a loading.stiffness in N/m", "leave it out, or stiffness = \"1e6 N/m\"");
-  const double spring = section.quantity("stiffness", *value, medium::Dimension::spring);
-  if (!(spring > 0)) throw section.refuse("stiffness", "not positive", "> 0");
-  return spring / square_metres / section.si("stiffness", unit);
-}
 
 void read_medium(const Document& document, medium::Constants& options) {
   const Section section(document, "medium");
@@ -213,7 +177,7 @@ RawStress read_tables(const Document& document, const TableReader& tables, Scena
   attempt("time", [&] { Section(document, "time").read("end", scenario.end); });
   attempt("pulse", [&] { read_pulse(document, scenario.pulse); });
   attempt("chain", [&] { read_chain(document, scenario.chain); });
-  attempt("loading", [&] { read_loading(document, scenario.loading); });
+  attempt("loading", [&] { read_loading(document, tables, scenario); });
   if (scenario.loading.acts()) scenario.chain.implicit = true;
   if (std::find(broken.begin(), broken.end(), "time") == broken.end())  // it bounds the times of results
     attempt("output", [&] { scenario.output = read_output(document, scenario.end); });

@@ -30,9 +30,9 @@ std::pair<double, double> trial_range(const Domain& domain, double reach,
 
 void read_friction(const Document& document, const TableReader& tables, const RawStress& raw, Scenario& scenario);
 void read_medium(const Document& document, medium::Constants& medium);
-/// Stiffness of the springs in the unit of the model, and that unit, which depends on the sites that they pull.
-std::optional<double> stiffness_of(const Section& section);
-ModelUnit unit_of_stiffness(const Section& section);
+void read_loading(const Document& document, const TableReader& tables, Scenario& scenario);
+/// Unit of the stiffness of springs, which depends on the sites that they pull.
+ModelUnit unit_of_stiffness(const Section& loading);
 
 /// The line or plane on which friction acts, in x and y of the scenario.
 struct Interface {
@@ -43,6 +43,30 @@ struct Interface {
 };
 /// `range` is that of a line, trial_range.
 Interface interface_of(const Document& document, const Domain& domain, const std::pair<double, double>& range);
+
+/// Reads numbers of a table that vary along the interface: by a formula of x (and y on a plane), or by a column of a
+/// table file.
+class AlongReader {
+ public:
+  using At = std::function<double(double, double)>;
+  AlongReader(const Section& section, const TableReader& tables, const Interface& interface)
+      : section_(section), tables_(tables), interface_(interface) {}
+
+  /// The values of a key that varies, in the unit of the model. They keep `limits`.
+  At read(std::string_view key, const Value& value, ModelUnit unit, const Limits& limits) const;
+  /// With its range on a grid of positions, so that a formula which fails does so before the run. A value that is the
+  /// same there and on a finer grid does not vary: `at` is null.
+  friction::AlongInterface in_range(At at) const;
+
+ private:
+  const Section& section_;
+  const TableReader& tables_;
+  Interface interface_;
+};
+
+/// The key "stiffness" or "velocity" of [loading] in the unit of the model. `at` is null unless it varies.
+/// \throws InputError if it is missing or not allowed; it names the position if it varies.
+friction::AlongInterface read_springs(const Section& loading, const AlongReader& reader, std::string_view key);
 
 /// Parameters of friction as a laboratory gives them, in the model's units (docs/friction.md, "In SI units"): a text
 /// with a unit, or, where [friction] has a `normal_stress`, forces as friction coefficients. A parameter and the normal
@@ -63,17 +87,13 @@ class FrictionUnits {
   static ModelUnit unit_of(const friction::Parameter& parameter);
 
  private:
-  using At = std::function<double(double, double)>;
   double si_of(const friction::Parameter& parameter) const;
   double uniform(const friction::Parameter& parameter) const;
   bool has_curve() const { return friction_.has("formula") || friction_.has("file"); }
   double normal_stress_in_si() const;
-  At read_along(std::string_view key, const Value& value, ModelUnit unit, const Limits& limits) const;
-  friction::AlongInterface in_range(At at) const;
 
   const Section& friction_;
-  const TableReader& tables_;
-  Interface interface_;
+  AlongReader along_;
   bool vary_ = false;
   double largest_normal_stress_ = 0;  ///< in Pa, if it is a formula or a column
   std::optional<friction::AlongInterface> share_;

@@ -83,7 +83,8 @@ void Section::check_values() const {
 void Section::check_value(const Key& key) const {
   switch (key.type) {
     case KeyType::number:
-      if (name_ != "friction" && key.name != "stiffness") static_cast<void>(number(key.name));
+      if (name_ != "friction" && key.name != "stiffness" && !(name_ == "loading" && varies(*find(key.name))))
+        static_cast<void>(number(key.name));
       return;
     case KeyType::whole_number:
       static_cast<void>(whole_number(key.name));

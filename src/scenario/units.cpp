@@ -99,22 +99,37 @@ std::optional<double> product(double number, const std::optional<double>& unit) 
   return unit ? std::optional(number * *unit) : std::nullopt;
 }
 
-/// The numbers of one table, except parameters of friction.
-void add_table(const Document& document, std::string_view table, std::vector<Quantity>& all) {
+Interface interface_in(const Document& document) {
+  const Section line(document, "domain");
+  const Domain domain{line.number("left"), line.number("right")};
+  return interface_of(document, domain, trial_range(domain, 0, {}));
+}
+
+/// The numbers of one table, except parameters of friction. Of springs that vary, the least and the largest number.
+void add_table(const Document& document, std::string_view table, const TableReader& tables,
+               std::vector<Quantity>& all) {
   const Section section(document, table);
   for (const Key* key : keys_of(table)) {
     const Value* const value = section.find(key->name);
     if (!value || (key->type != KeyType::number && key->type != KeyType::numbers)) continue;
     const ModelUnit unit = key->name == "stiffness" ? unit_of_stiffness(section) : key->scale;
     if (unit == ModelUnit::none) continue;
-    const auto add = [&](const Value& item, double model) {
-      all.push_back({std::string(table) + "." + std::string(key->name), item.text, model, symbol_of(unit),
+    const auto add = [&](const Value& item, double model, const char* which = "") {
+      all.push_back({std::string(table) + "." + std::string(key->name) + which, item.text, model, symbol_of(unit),
                      product(model, known_si(document.units, unit)), medium::si_unit(dimension_of(unit))});
     };
     if (key->type == KeyType::numbers) {
       for (const Value& item : value->items) add(item, section.item_in(key->name, item, unit, key->limits));
     } else {
-      add(*value, key->name == "stiffness" ? *stiffness_of(section) : *section.number(key->name));
+      const bool springs = key->name == "stiffness" || (table == "loading" && key->name == "velocity");
+      if (!springs) {
+        add(*value, *section.number(key->name));
+        continue;
+      }
+      const friction::AlongInterface along =
+          read_springs(section, AlongReader(section, tables, interface_in(document)), key->name);
+      if (along.at) add(*value, along.least, ", least");
+      add(*value, along.most, along.at ? ", largest" : "");
     }
   }
 }
@@ -122,9 +137,7 @@ void add_table(const Document& document, std::string_view table, std::vector<Qua
 void add_friction(const Document& document, const TableReader& tables, const friction::Definition& law,
                   std::vector<Quantity>& all) {
   const Section section(document, "friction");
-  const Section line(document, "domain");
-  const Domain domain{line.number("left"), line.number("right")};
-  const FrictionUnits units(section, tables, interface_of(document, domain, trial_range(domain, 0, {})));
+  const FrictionUnits units(section, tables, interface_in(document));
   for (const friction::Parameter& p : law.parameters) {
     const Value* const value = section.find(p.name);
     if (!value || !p.words.empty()) continue;
@@ -170,7 +183,7 @@ std::vector<Quantity> quantities_of(std::string_view text, const std::string& fi
   std::vector<Quantity> all;
   for (const std::string_view table : known_tables()) {
     if (table != "friction") {
-      add_table(document, table, all);
+      add_table(document, table, tables, all);
     } else if (const auto law = Section(document, table).text("law")) {
       for (const friction::Definition* known : friction::laws())
         if (known->name == *law) add_friction(document, tables, *known, all);

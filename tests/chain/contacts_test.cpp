@@ -40,7 +40,7 @@ Problem with_contacts(const friction::Friction& friction) {
   Problem p;
   p.friction = friction;
   p.longest = 100;
-  p.contact = [a = friction.contact_at_start()](double) { return a; };
+  p.contact = [a = friction.contact_at_start(0)](double) { return a; };
   return p;
 }
 
@@ -131,6 +131,54 @@ TEST(Contacts, ImplicitStepsOfABlockAgreeWithAnotherMethod) {
   }
 }
 
+/// A chain whose left half has the numbers of one block and whose right half has those of another. At both ends it
+/// moves as these blocks do, until a wave comes from the middle.
+TEST(Contacts, NumbersThatVaryAreThoseOfEachSite) {
+  constexpr double end = 10, middle = 16, tolerance = 1e-5;
+  const std::vector<double> law[2] = {{0.05, 0.01, 0.015, 6, 0.05}, {0.04, 0.012, 0.014, 5, 0.04}},
+                            contacts[2] = {{0.1, 5, 0.05, 30, 0.1}, {0.2, 3, 0.02, 0, 0}};
+  const friction::Friction friction[2] = {rate_and_state(law[0], contacts[0]), rate_and_state(law[1], contacts[1])};
+  friction::Friction both = friction[0];
+  const std::vector<friction::Parameter>& parameters = both.definition().parameters;
+  for (const friction::Parameter& p : parameters) {
+    const double one = friction[0].parameter(p.name), other = friction[1].parameter(p.name);
+    if (one == other) continue;
+    both = both.with(p.name, {[=](double x, double) { return x < middle ? one : other; }, std::fmin(one, other),
+                              std::fmax(one, other)});
+  }
+  const auto make = [&](const friction::Friction& f, std::size_t sites, bool implicit) {
+    Problem p = with_contacts(f);
+    p.contact = [f](double x) { return f.contact_at_start(x); };
+    p.grid = {0, 0.4, sites};
+    p.forcing = [](double, double) { return 0.06; };
+    p.steady_forcing = true;
+    p.implicit = implicit;
+    p.step = implicit ? 0 : 0.1;
+    p.tolerance = tolerance;
+    return chain::make_chain(p, [](std::size_t begin, std::size_t to) -> Motion {
+      return {std::vector<double>(to - begin, 0.0), std::vector<double>(to - begin, 2.5)};
+    });
+  };
+  for (const bool implicit : {false, true}) {
+    const auto whole = make(both, 81, implicit);
+    const double first = chain::totals(*whole).energy();
+    whole->advance_to(end);
+    EXPECT_LT(budget(*whole, first), implicit ? 1e-10 : 0.01);
+    for (const std::size_t half : {0u, 1u}) {
+      const auto block = make(friction[half], 8, implicit);
+      block->advance_to(end);
+      const std::size_t site = half == 0 ? 3 : 77;
+      const chain::Window mine = whole->window(site, site + 1, end), one = block->window(3, 4, end);
+      const double allowed = implicit ? 300 * tolerance : 1e-9;
+      EXPECT_NEAR(mine.u[0], one.u[0], allowed);
+      EXPECT_NEAR(mine.velocity[0], one.velocity[0], allowed);
+      EXPECT_NEAR(mine.contact_squared[0], one.contact_squared[0], allowed);
+      EXPECT_NEAR(mine.effective_stress[0], one.effective_stress[0], allowed);
+    }
+    EXPECT_GT(std::fabs(whole->window(3, 4, end).u[0] - whole->window(77, 78, end).u[0]), 1);
+  }
+}
+
 /// The balance holds for steps of any length, also where a block slips by radians while its contacts age.
 TEST(Contacts, LongImplicitStepsConserveEnergy) {
   for (const Block& block : blocks) {
@@ -200,7 +248,7 @@ chain::ScaledProblem step(const std::vector<double>& contacts) {
   s.end = 2;
   s.spacing = 0.3;
   s.friction = rate_and_state({0.05, 0.01, 0.015, 0.05, 0.05}, contacts);
-  s.contact = [a = s.friction.contact_at_start()](double) { return a; };
+  s.contact = [a = s.friction.contact_at_start(0)](double) { return a; };
   return s;
 }
 

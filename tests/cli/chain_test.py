@@ -80,7 +80,8 @@ class Chain(CommandLine):
         # A block without a substrate has no dislocations, and needs no larger scale.
         self.assertEqual(self.chain(case, "--set", "time.end=50000")["warnings"], [])
         # An interrupted and resumed run writes the same file as an uninterrupted one.
-        longer = ["--set", "time.end=4e6", "--set", "output.every=4e5"]
+        longer = ["--set", "time.end=4e6", "--set", "output.every=4e5", "--set", "loading.stiffness=0.0025*(1 + 0.05*x)",
+                  "--set", "loading.velocity=0.001*(1 + 0.02*x)"]
         cut, uninterrupted = case + ".cut.nc", case + ".alone.nc"
         self.interrupted(cut, "chain", case, *longer)
         self.ok("chain", case, *longer, "--resume", cut)
@@ -98,7 +99,8 @@ class Chain(CommandLine):
         case, _ = self.slider()
         for setting, said in (("loading.stiffness=0", "loading.stiffness"), ("loading.stiffness=-1", "> 0"), ("loading.velocity=nan", "not finite"),
                               ("loading.velocity=inf", "not finite"), ("loading.stifness=1", "'stiffness'"), ("loading.where=top", "where"),
-                              ("loading.where=left chain.left=fixed", "chain.left"), ("friction.law=coulomb", "friction."),
+                              ("loading.where=left chain.left=fixed", "chain.left"), ("loading.stiffness=1e-3*x", "is -0.002 at x = -2"),
+                              ("loading.velocity=1e-3*(x>0) loading.where=left", "loading.velocity"), ("friction.law=coulomb", "friction."),
                               ("chain.left=absorbing", "absorbing"), ("chain.tolerance=0", "chain.tolerance"),
                               ("interface.contact=1 initial.stress_left=-1", "stress")):
             _, settings = self.slider(*setting.split())

@@ -104,6 +104,10 @@ class Continue(CommandLine):
         within = whole["events"][2]["onset"] + 0.5 * whole["events"][2]["duration"]
         self.same_as_one_run("chain", case, (60000, within, 160000), ("output.every=50000", "output.per_event=5", "output.dislocations=true"))
         self.same_as_one_run("chain", STEP, (1, 2), (*DOMAIN, "chain.scale=30", "chain.steps=implicit", *AGEING))
+        contacts = ("friction.contact_ageing=0.05*(1.5 + tanh(x))", "friction.contact_time=1.5 + tanh(x)",
+                    "friction.dilatancy=0.02*(1.5 + tanh(x))", "friction.drainage_time=1.5 + tanh(x)", "friction.direct_effect=0.01*(1.5 + tanh(x))")
+        self.same_as_one_run("chain", STEP, (0.5, 1), ("domain.left=-2", "domain.right=2", "chain.scale=3", "chain.spacing=0.3", "chain.steps=implicit",
+                                                       *AGEING, *contacts))
 
     def test_a_finished_plane_continues_to_the_same_bytes(self):
         for command, settings in (("plane", ("plane.loops=12", "plane.angles=16", "plane.cells=20")),

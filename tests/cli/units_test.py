@@ -94,6 +94,39 @@ class Units(CommandLine):
         self.assertAlmostEqual(out["numbers"]["strength_over_direct_effect"], 80)
         self.assertIn("critical stiffness: ", self.ok("units", self.file))
 
+    def test_states_where_numbers_that_vary_are_least_and_largest(self):
+        settings = ["--set", "friction.units=SI", "--set", "friction.direct_effect=0.005 + 0.01*x",
+                    "--set", "loading.units=SI", "--set", "loading.stiffness=0.07e12*(1 + 2*x)"]
+        out = json.loads(self.ok("units", self.file, *settings, "--json"))
+        keys = {row["key"]: row for row in out["keys"]}
+        left, right = keys["domain.left"]["model"], keys["domain.right"]["model"]
+        self.assertAlmostEqual(keys["loading.stiffness, least"]["si"] / 0.056e12, 1)
+        # f_0 / a; kappa D_c / ((b - a) sigma_N); and 2 pi / sqrt(kappa_c - kappa) where kappa < kappa_c, at the left end
+        wanted = {"strength_over_direct_effect": ((0.4 / 0.006, right), (0.4 / 0.004, left)),
+                  "stiffness_ratio": ((0.028e6 / 0.025e6, left), (0.042e6 / 0.015e6, right))}
+        for name, values in wanted.items():
+            for which, (value, x) in zip(("least", "largest"), values):
+                found = out["ranges"][name][which]
+                self.assertAlmostEqual(found["value"] / value, 1, places=5)
+                self.assertAlmostEqual(found["x"], x)
+        self.assertNotIn("nucleation_length", out["ranges"])  # these springs are too stiff everywhere
+        text = self.ok("units", self.file, *settings)
+        self.assertIn("f_0 / a, largest: 100, at x = -0.1 m\n", text)
+        softer = json.loads(self.ok("units", self.file, *settings, "--set", "loading.stiffness=0.03e12*(1 + 2*x)", "--json"))
+        nucleation = softer["ranges"]["nucleation_length"]
+        self.assertAlmostEqual(nucleation["least"]["x"], left)
+        self.assertAlmostEqual(nucleation["largest"]["x"] / right, 0.625, places=2)  # stable to the right of it
+        self.assertEqual(json.loads(self.ok("units", self.file, "--json"))["ranges"], {})
+
+    def test_states_where_numbers_that_vary_on_a_plane_are_largest(self):
+        case, a = os.path.join(SOURCE, "cases/plane-nucleation.toml"), "friction.direct_effect=1 + x^2 + (y - 1)^2"
+        for ratio, y in ((1, 1), (0.5, 1)):
+            out = json.loads(self.ok("units", case, "--set", a, "--set", f"plane.wave_speed_ratio={ratio}", "--json"))
+            found = out["ranges"]["strength_over_direct_effect"]["largest"]
+            self.assertAlmostEqual(found["value"], 4.5, places=2)
+            self.assertAlmostEqual(found["x"], 0)
+            self.assertAlmostEqual(found["y"], y, places=1)
+
     def test_dimensionless_numbers_give_the_same_bits(self):
         out = json.loads(self.ok("units", self.file, "--json"))
         numbers = [f"{row['key']}={row['model']!r}" for row in out["keys"]]

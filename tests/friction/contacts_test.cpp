@@ -71,7 +71,7 @@ TEST(Contacts, GrowAsTheOldestOrMostSuckedOnesDo) {
     given["initial_state"] = 5;
     const Friction friction = rate_and_state_with(given);
     const double end = 100, at_start = 0.9 * std::sqrt(1 + 0.4 * std::log1p(5.0 / 3));
-    EXPECT_NEAR(friction.contact_at_start(), at_start, 1e-14);
+    EXPECT_NEAR(friction.contact_at_start(0), at_start, 1e-14);
     double most = 0;
     for (double age = 0.2; age < 5 + end; age *= 1.0005) {
       const double share = 0.9 + dilatancy * std::log((5 + end) / age);
@@ -84,7 +84,7 @@ TEST(Contacts, GrowAsTheOldestOrMostSuckedOnesDo) {
 
 TEST(Contacts, KeepTheirStrengthUnderFrictionThatDoesNotChangeThem) {
   for (const Friction& friction : {coulomb(0.5), rate_and_state_with({{"strength", 0.6}})}) {
-    EXPECT_EQ(friction.contact_at_start(), 1);
+    EXPECT_EQ(friction.contact_at_start(0), 1);
     EXPECT_EQ(friction.contact_growth(100), 1);
   }
 }

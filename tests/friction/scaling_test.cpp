@@ -69,7 +69,7 @@ class Pair {
     near(many.strength_at_rest(), one.strength_at_rest() / scale_, "strength_at_rest");
     near(many.linear_coefficient().value_or(0), one.linear_coefficient().value_or(0) / scale_, "linear_coefficient");
     near(many.constant_strength().value_or(0), one.constant_strength().value_or(0) / scale_, "constant_strength");
-    near(many.contact_at_start(), one.contact_at_start(), "contact_at_start");
+    near(many.contact_at_start(0), one.contact_at_start(0), "contact_at_start");
     near(many.contact_growth(scale_ * 3), one.contact_growth(3), "contact_growth");
     near(many.contacts().strength(2 * scale_, 0.01), one.contacts().strength(2, 0.01), "contacts' strength");
     near(many.contacts().excess_after(0.3 * scale_, 0.01, 2 * scale_, 0.7 * scale_),

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "friction/state/contacts.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/friction/friction.hpp"
 
@@ -179,12 +180,25 @@ TEST(VaryingFriction, HasNoCoefficientOfItsOwnButOneAtEachPosition) {
   EXPECT_FALSE(coulomb(0.5).with("coefficient", varied(0.4)).linear_coefficient(0, 0));
 }
 
-TEST(VaryingFriction, DoesNotChangeContacts) {
+/// The growth of contacts whose numbers vary bounds that at each position.
+TEST(VaryingFriction, ChangesContactsByTheNumbersOfEachPosition) {
   for (const Definition* law : laws()) {
     if (law->find("contact_ageing") == nullptr) continue;
     std::vector<double> values;
     for (const Parameter& p : law->parameters) values.push_back(p.words.empty() ? std::fmin(p.most, 0.5) : 0);
-    EXPECT_THROW(Friction(*law, values).with("strength", varied(1)), InputError);
+    Friction friction(*law, values);
+    for (const Parameter& p : law->parameters)
+      if (p.words.empty()) friction = friction.with(p.name, varied(friction.parameter(p.name)));
+    for (const double x : {-2.0, 0.3, 1.0}) {
+      std::vector<double> state(friction.state_size());
+      friction.start(x, 0, state);
+      const Friction there = friction.at(x, 0);
+      const Contacts contacts = friction.contacts_at(state), uniform = there.contacts();
+      EXPECT_EQ(contacts.strength(3, 0.1), uniform.strength(3, 0.1));
+      EXPECT_EQ(contacts.excess_after(0.2, 0.1, 3, 4), uniform.excess_after(0.2, 0.1, 3, 4));
+      EXPECT_NEAR(friction.contact_at_start(x), there.contact_at_start(0), 1e-14);
+      EXPECT_GE(friction.contact_growth(10), there.contact_growth(10) * (1 - 1e-12));
+    }
   }
 }
 

@@ -51,19 +51,21 @@ class VaryingFriction(unittest.TestCase):
                 self.assertLess(off, 0.01)
 
     def test_a_loaded_chain_is_that_of_another_integrator(self):
-        """A block with free ends whose friction varies in every number, against Radau at points of cosines."""
-        left, right, kappa, pulled, end, count = -1.5, 1.5, 0.05, 0.2, 60, 24
+        """A block with free ends whose friction and springs vary in every number, against Radau at points of cosines."""
+        left, right, end, count = -1.5, 1.5, 60, 24
         formulas = {"strength": "0.03*(1 + 0.3*tanh(x))", "direct_effect": "0.004*(1 + 0.2*sin(x))", "evolution_effect": "0.009*(1 - 0.2*x)",
                     "characteristic_slip": "0.3*(1 + 0.3*cos(x))", "reference_velocity": "0.1*(1 + 0.2*x)", "initial_state": "3 + x"}
+        springs = {"stiffness": "0.05*(1 + 0.3*x)", "velocity": "0.2*(1 + 0.2*sin(x))"}
         case = {"initial": {"stress_left": 0, "stress_right": 0}, "interface": {"contact": 0}, "friction": {"law": "rate-and-state", **formulas},
-                "loading": {"stiffness": kappa, "velocity": pulled}, "domain": {"left": left, "right": right}, "time": {"end": end},
+                "loading": springs, "domain": {"left": left, "right": right}, "time": {"end": end},
                 "chain": {"scale": 1, "spacing": 0.05, "left": "free", "right": "free", "tolerance": 1e-7}, "output": {"every": 5}}
         chain = slipfront.chain(case)
         angle = np.pi * (np.arange(count) + 0.5) / count
         x = left + (right - left) * angle / np.pi
         modes = np.cos(np.outer(angle, np.arange(count)))
         second = modes @ np.diag(-(np.arange(count) * np.pi / (right - left)) ** 2) @ np.linalg.inv(modes)
-        f0, a, b, D, w0, theta0 = (eval(text, {"x": x, "tanh": np.tanh, "sin": np.sin, "cos": np.cos}) for text in formulas.values())
+        names = {"x": x, "tanh": np.tanh, "sin": np.sin, "cos": np.cos}
+        f0, a, b, D, w0, theta0, kappa, pulled = (eval(text, names) for text in (*formulas.values(), *springs.values()))
 
         def rates(t, y):
             u, v, log_theta = y.reshape(3, count)
@@ -82,6 +84,9 @@ class VaryingFriction(unittest.TestCase):
         for command in (slipfront.chain, slipfront.pulse):
             number, formula = (command({**case, "friction": {"law": "viscous", "coefficient": c}}) for c in (0.3, "0.3 + 0*x"))
             self.assertTrue(number["slip"].equals(formula["slip"]))
+        loaded = {**case, "friction": {"law": "viscous", "coefficient": 0.3}}
+        number, formula = (slipfront.chain({**loaded, "loading": {"stiffness": kappa, "velocity": v}}) for kappa, v in ((0.2, 0.1), ("0.2 + 0*x", "0.1 + 0*x")))
+        self.assertTrue(number["slip"].equals(formula["slip"]))
 
 
 if __name__ == "__main__":

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -99,6 +101,26 @@ TEST(VaryingFrictionOfAScenario, IsAFactorOfACurve) {
     EXPECT_NEAR(varies.friction.force(0.1, state_at(varies, -end)), force, 1e-12 * force);
     EXPECT_NEAR(varies.friction.force(0.1, state_at(varies, end)), 2 * force, 1e-12 * force);
   }
+}
+
+TEST(VaryingFrictionOfAScenario, ChangesContactsAndPoresByTheNumbersThere) {
+  const std::string text = ageing + "contact_ageing = \"0.1 + 0.02*x\"\ncontact_time = \"1 + x^2\"\n";
+  const Scenario s = read(text), there = read(ageing + "contact_ageing = 0.12\ncontact_time = 2\n");
+  EXPECT_NEAR(s.contact_at(1), there.contact_at(1), 1e-15);
+  EXPECT_GT(std::fabs(s.contact_at(-1) - there.contact_at(1)), 1e-3);
+  EXPECT_TRUE(contains(refused(text, {"friction.contact_time=2 + x"}).problem, "friction.contact_time is 0 at x = -2"));
+  // A pressure in Pa is a larger share where the normal stress is low.
+  const std::string pores =
+      "[friction]\nlaw = \"rate-and-state\"\nunits = \"SI\"\ndrainage_time = \"1 s\"\n"
+      "normal_stress = \"2e6 + 0.5e6*x\"\ncharacteristic_slip = \"1 um\"\nstrength = 0.6\n"
+      "dilatancy = \"0.1 MPa\"\n";
+  const Scenario rocks = read("[initial]\nstress_left = 0\nstress_right = 0\n" + rock +
+                              "[domain]\nleft = \"-2 m\"\nright = \"2 m\"\n" + pores);
+  const std::vector<std::string> names = rocks.friction.state_names();
+  const auto column = std::find(names.begin(), names.end(), "dilatancy") - names.begin();
+  const double end = rocks.domain.right.value();
+  EXPECT_NEAR(state_at(rocks, -end)[static_cast<std::size_t>(column)], 0.1, 1e-12);
+  EXPECT_NEAR(state_at(rocks, end)[static_cast<std::size_t>(column)], 0.1 / 3, 1e-12);
 }
 
 /// Neither a narrow patch nor one outside of an estimated domain is overlooked.

@@ -65,7 +65,7 @@ inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
   if (kind == 9) {  // contacts that age and pores that dilate
     p.boundary = {End::fixed, End::free, false, 0};
     p.friction = law("rate-and-state", {0.05, 0.01, 0.015, 3, 0.05, 0, 0, 0.1, 10, 0.02, 30, 0.1});
-    p.contact = [a = p.friction.contact_at_start()](double x) { return a * (1 + 0.1 * std::cos(0.3 * x)); };
+    p.contact = [a = p.friction.contact_at_start(0)](double x) { return a * (1 + 0.1 * std::cos(0.3 * x)); };
     p.forcing = [](double x, double t) { return 0.1 * std::sin(0.1 * x + t); };
     p.longest = 100;
   }

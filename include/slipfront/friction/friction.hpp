@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "slipfront/friction/law.hpp"
@@ -45,7 +46,6 @@ class Friction {
   /// This friction with another value of a parameter.
   Friction with(std::string_view parameter, double value) const;
   /// This friction with a parameter that varies. `parameter` then returns its largest value.
-  /// \throws InputError if friction of this law changes contacts or pores.
   Friction with(std::string_view parameter, const AlongInterface& value) const;
   /// This friction with a normal stress that varies, as a share of the one that the parameters assume. All forces are
   /// proportional to it.
@@ -89,12 +89,18 @@ class Friction {
   /// These values at t = 0 where the parameters that vary are largest.
   std::vector<double> state_at_start() const;
 
-  /// The effect of the law's state on contacts and pores (friction/state/contacts.hpp).
+  /// The effect of the law's state on contacts and pores (friction/state/contacts.hpp). Of numbers that vary it has the
+  /// largest.
   const Contacts& contacts() const { return *contacts_; }
+  /// That at a position, whose numbers `state` has.
+  Contacts contacts_at(LocalState state) const;
+  /// Whether numbers of contacts or pores vary.
+  bool contacts_vary() const { return !contact_columns_.empty(); }
   /// Whether the state changes contacts or pores. It does not for most laws.
   bool changes_contacts() const;
-  /// The contact ratio at t = 0 over that of contacts without age and pores without pressure. It is 1 for most laws.
-  double contact_at_start() const;
+  /// The contact ratio at t = 0 over that of contacts without age and pores without pressure, at a position. It is 1
+  /// for most laws.
+  double contact_at_start(double x) const;
   /// The largest factor by which a contact ratio may rise within a time, at slip velocities up to 10 c A / pi.
   double contact_growth(double time) const;
 
@@ -115,6 +121,8 @@ class Friction {
   /// The name "normal_stress" stands for the share of the normal stress.
   using Variations = std::map<std::string, AlongInterface, std::less<>>;
   Friction(const Definition& definition, std::vector<double> values, Closure closure, Curve curve, Variations varying);
+  std::pair<double, double> range_of(std::string_view parameter) const;
+  std::pair<double, double> ages_at_start() const;
 
   const Definition* definition_;
   std::vector<double> values_;
@@ -127,6 +135,8 @@ class Friction {
   Closure closure_ = Closure::consistent;
   std::shared_ptr<const Law> law_;
   std::shared_ptr<const Contacts> contacts_;
+  std::vector<std::pair<double Contacts::*, std::size_t>>
+      contact_columns_;  ///< numbers that vary: where states have them
   bool acts_ = false;
   double at_rest_ = 0;
 };

@@ -56,11 +56,21 @@ std::unique_ptr<plane::Solver> plane_solver(const Scenario& scenario, SolverKind
 /// results need more memory than this process may have.
 plane::Schedule plane_schedule(const Scenario& scenario, SolverKind solver);
 
+/// A position on a line (y = 0) or a plane, in the coordinates of the scenario, and the value of a number there.
+struct ValueAt {
+  double value, x, y;
+};
+
+/// The least and the largest value of a number along the interface.
+struct Range {
+  ValueAt least, largest;
+};
+
 /// Absent numbers do not apply to the scenario. Lengths are in b / A, stiffness in the unit of the model.
 struct Numbers {
-  /// The position with the largest critical stiffness, if friction varies. The other numbers of friction are those
-  /// there.
-  std::optional<double> position = {};
+  /// The position with the largest critical stiffness, if friction or springs vary. The other numbers of friction are
+  /// those there. On a plane `position_y` is its y.
+  std::optional<double> position = {}, position_y = {};
   std::optional<double> strength_over_direct_effect;  ///< f_0 / a of rate-and-state friction
   /// kappa_c = ((b - a) / D_c) (1 + v^2 / (a D_c)) at the velocity v of the springs: softer springs let steady sliding
   /// become unstable (docs/loading.md).
@@ -69,6 +79,9 @@ struct Numbers {
   /// 2 pi / sqrt(kappa_c - kappa), the shortest wave along the interface that grows without a substrate. A shorter
   /// interface slides steadily.
   std::optional<double> nucleation_length;
+  /// The ranges of three of these numbers, if friction or springs vary. That of the nucleation length is over the
+  /// positions where steady sliding is unstable, and absent without such positions.
+  std::optional<Range> strength_over_direct_effect_range = {}, stiffness_ratio_range = {}, nucleation_length_range = {};
   std::optional<double> dislocations;  ///< in the domain at t = 0
   std::optional<double> length;        ///< length of the domain
 };

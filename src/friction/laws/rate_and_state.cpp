@@ -166,8 +166,11 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
     for (std::size_t p = 0; p < kind; ++p) std::fill_n(at.of[p], part_size, values()[p]);
     in_parts(size, [&](std::size_t begin, std::size_t some) {
       for (std::size_t i = 0; i < some; ++i) at.theta[i] = states.at(begin + i)[0];
-      for (std::size_t c = 0; c < varying().parameters.size(); ++c)
-        for (std::size_t i = 0; i < some; ++i) at.of[varying().parameters[c]][i] = states.at(begin + i)[1 + c];
+      for (std::size_t c = 0; c < varying().parameters.size(); ++c) {
+        const std::size_t parameter = varying().parameters[c];
+        if (parameter >= kind) continue;  // the force does not need the numbers of contacts and pores
+        for (std::size_t i = 0; i < some; ++i) at.of[parameter][i] = states.at(begin + i)[1 + c];
+      }
       task(begin, some, at);
     });
   }

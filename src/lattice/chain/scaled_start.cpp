@@ -71,7 +71,14 @@ Problem problem_of(const ScaledProblem& s, double share_of_machine) {
   p.crossing_stress = crossing_stress(s);
   p.step = s.step;
   p.loading = s.loading;
-  p.loading.stiffness /= s.loading.where == Pulled::everywhere ? s.scale * s.scale : s.scale;
+  const double softer = s.loading.where == Pulled::everywhere ? s.scale * s.scale : s.scale;
+  p.loading.stiffness /= softer;
+  if (s.loading.stiffness_at)
+    p.loading.stiffness_at = [at = s.loading.stiffness_at, softer, c = s.scale](double x) {
+      return at(x / c) / softer;
+    };
+  if (s.loading.velocity_at)
+    p.loading.velocity_at = [at = s.loading.velocity_at, c = s.scale](double x) { return at(x / c); };
   p.substrate = s.substrate;
   p.implicit = s.implicit || s.loading.acts();
   p.tolerance = s.tolerance;

@@ -125,7 +125,12 @@ Problem implicit_problem(int kind) {
   p.implicit = true;
   if (kind == 0) {
     p.contact = [](double x) { return 1 + 0.05 * std::cos(0.1 * x); };
-    p.loading = {.stiffness = 4e-3, .velocity = 0.05, .event_velocity = 0.06, .fronts = 7};
+    p.loading = {.stiffness = 5e-3,
+                 .velocity = 0.06,
+                 .event_velocity = 0.06,
+                 .fronts = 7,
+                 .stiffness_at = [](double x) { return 4e-3 + 1e-3 * std::sin(0.3 * x); },
+                 .velocity_at = [](double x) { return 0.05 + 0.01 * std::cos(0.2 * x); }};
   } else if (kind == 1) {
     p.boundary = {End::free, End::fixed, false, 0};
     p.loading = {.stiffness = 0.1, .velocity = 0.3, .where = Pulled::left, .event_velocity = 0.002};

@@ -59,6 +59,39 @@ TEST(Loading, ForceAtFixedEndsIsExactInSpace) {
   }
 }
 
+/// As above, with springs that vary in stiffness and velocity, and a part without springs.
+TEST(Loading, SpringsThatVaryAreExactInSpace) {
+  constexpr double length = 4, end = 5;
+  const auto shape = [](double x) { return x * (length - x) / 10; };
+  const auto stiffness = [](double x) { return x < 1 ? 0 : 0.3 + 0.1 * std::sin(x); };
+  const auto velocity = [](double x) { return 0.5 - 0.4 * x; };  // both forward and backward
+  for (const double h : {0.4, 0.2}) {
+    Problem p = smooth_block();
+    p.grid = {0, h, static_cast<std::size_t>(std::lround(length / h)) + 1};
+    p.boundary = {.left = End::fixed, .right = End::fixed};
+    p.loading = {.stiffness = 0.4, .velocity = -1.1, .stiffness_at = stiffness, .velocity_at = velocity};
+    p.forcing = [&](double x, double t) {
+      const double u = shape(x) * (1 - std::cos(t)), bend = -0.2 * (1 - std::cos(t));
+      return shape(x) * std::cos(t) - bend - stiffness(x) * (velocity(x) * t - u);
+    };
+    p.tolerance = 1e-8;
+    ImplicitChain chain(p, at_rest(p));
+    chain.advance_to(end);
+    const auto w = chain.window(0, p.grid.sites);
+    double load = 0, stored = 0;
+    for (std::size_t j = 0; j < w.u.size(); ++j) {
+      const double u = shape(w.x[j]) * (1 - std::cos(end)), stretch = velocity(w.x[j]) * end - u;
+      const double weight = j == 0 || j + 1 == w.u.size() ? h / 2 : h;
+      EXPECT_NEAR(w.u[j], u, 1e-5) << h;
+      load += weight * (p.forcing(w.x[j], end) + stiffness(w.x[j]) * stretch) / length;
+      stored += weight * stiffness(w.x[j]) * stretch * stretch / 2;
+    }
+    EXPECT_NEAR(chain.load(), load, 1e-5);
+    EXPECT_NEAR(chain::totals(chain).loading, stored, 1e-4);
+    EXPECT_LT(budget(chain, 0), 1e-12);
+  }
+}
+
 /// Far from its other end a string whose end is pulled moves as u = g(t - x), g' + kappa g = kappa v t.
 TEST(Loading, PulledEndSendsTheExactWave) {
   for (const Pulled where : {Pulled::left, Pulled::right}) {

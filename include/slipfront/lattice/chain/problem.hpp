@@ -58,13 +58,17 @@ enum class Pulled { everywhere, left, right };
 /// Springs that load the chain. Their far ends move at a constant velocity, so F = stiffness (velocity t - slip). The
 /// slip is u minus u at t = 0.
 struct Loading {
-  double stiffness = 0;  ///< force over slip, or stress over slip at a pulled end; 0: no springs
-  double velocity = 0;   ///< in c A / 2 pi
+  double stiffness = 0;  ///< force over slip, the largest if it varies; stress over slip at a pulled end; 0: no springs
+  double velocity = 0;   ///< in c A / 2 pi; the largest, forward or backward, if it varies
   Pulled where = Pulled::everywhere;
   double event_velocity = 0;  ///< a part of the chain that is faster belongs to an event; 0: record no events
   std::size_t fronts = 0;     ///< positions at which the arrival of each event is recorded
+  /// Both at x, if they vary along a chain that is pulled everywhere; null: they do not. Called from one thread only.
+  std::function<double(double x)> stiffness_at = {}, velocity_at = {};
 
   bool acts() const { return stiffness > 0; }
+  double stiffness_of(double x) const { return stiffness_at ? stiffness_at(x) : stiffness; }
+  double velocity_of(double x) const { return velocity_at ? velocity_at(x) : velocity; }
 };
 
 struct Problem {

@@ -37,6 +37,7 @@ void EventLog::look(double time, double load, const ChainParts& parts) {
   const std::size_t n = parts.x.size();
   const Step step{time, load, parts};
   x_ = parts.x;
+  stiffness_ = parts.stiffness;
   part_length_ = parts.length;
   is_ring_ = parts.ring;
   owner_.resize(n, 0);
@@ -87,7 +88,7 @@ std::size_t EventLog::begin(const Step& step, const Stretch& stretch) {
   identities_.push_back(++last_identity_);
   open_.push_back({.identity = last_identity_,
                    .origins = {{parts.x[fastest], event.onset}},
-                   .slip_of_others = 0,
+                   .fall_by_others = 0,
                    .first_u = known ? last_u_ : parts.u,
                    .arrivals = std::vector<double>(parts.x.size(), none)});
   return last_identity_;
@@ -100,7 +101,7 @@ void EventLog::join(std::size_t from, std::size_t to) {
   for (std::size_t i = 0; i < x_.size(); ++i) {
     if (std::isnan(later.arrivals[i])) continue;
     earlier.first_u[i] -= last_u_[i] - later.first_u[i];
-    earlier.slip_of_others -= (last_u_[i] - later.first_u[i]) / static_cast<double>(x_.size());
+    earlier.fall_by_others -= fall_of_load(i, last_u_[i] - later.first_u[i]);
     earlier.arrivals[i] = std::fmin(earlier.arrivals[i], later.arrivals[i]);  // a NaN counts as no time
   }
   output::SlipEvent& event = events_[index_of(to)];
@@ -124,6 +125,11 @@ double EventLog::arrival_of(const Step& step, std::size_t part) const {
   return crossing(last_time_, last_velocity_[part], step.time, step.parts.velocity[part], threshold_);
 }
 
+/// The fall of the load, which is a mean over all parts, if one part slips.
+double EventLog::fall_of_load(std::size_t part, double slip) const {
+  return stiffness_.empty() ? 0 : stiffness_[part] * slip / static_cast<double>(x_.size());
+}
+
 /// Measures an event in progress. The slip of parts that move in another event belongs to that one, and so does the
 /// fall of the load that it causes.
 void EventLog::measure(const Step& step, Open& open) {
@@ -135,7 +141,7 @@ void EventLog::measure(const Step& step, Open& open) {
     const bool is_own = owner_[i] == open.identity;
     if (owner_[i] != 0 && !is_own && !last_u_.empty()) {
       open.first_u[i] += parts.u[i] - last_u_[i];
-      open.slip_of_others += (parts.u[i] - last_u_[i]) / static_cast<double>(parts.x.size());
+      open.fall_by_others += fall_of_load(i, parts.u[i] - last_u_[i]);
     }
     const double slip = parts.u[i] - open.first_u[i];
     sum += slip;
@@ -147,7 +153,7 @@ void EventLog::measure(const Step& step, Open& open) {
     if (!std::isnan(open.arrivals[i])) moved += 1;
   }
   event.slip = sum / static_cast<double>(parts.x.size());
-  event.stress_drop = event.load - step.load - parts.stiffness * open.slip_of_others;
+  event.stress_drop = event.load - step.load - open.fall_by_others;
   event.length = moved * parts.length;
   event.duration = step.time - event.onset;
   event.origin = moves_at_once(open) ? none : open.origins.front().x;
@@ -249,7 +255,7 @@ double EventLog::front_velocity(const Open& open, double duration) const {
 void EventLog::archive(Archive& a) {
   a(threshold_, last_time_, last_load_, part_length_, last_identity_, is_ring_);
   a(x_, last_u_, last_velocity_, owner_, identities_, events_);
-  a.each(open_, [&](Open& open) { a(open.identity, open.origins, open.slip_of_others, open.first_u, open.arrivals); });
+  a.each(open_, [&](Open& open) { a(open.identity, open.origins, open.fall_by_others, open.first_u, open.arrivals); });
   a.require(is_consistent());
 }
 

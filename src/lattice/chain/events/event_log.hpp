@@ -17,8 +17,9 @@ struct ChainParts {
   std::vector<double> x;            ///< the middle of each part
   std::vector<double> u, velocity;  ///< u at the end of the step; velocity at which friction was evaluated
   double length = 0;                ///< length of each part
-  double stiffness = 0;             ///< fall of the load with the mean slip; 0: not all sites are pulled
-  bool ring = false;                ///< the last part is next to the first one
+  std::vector<double> stiffness =
+      {};             ///< fall of the force on each part with its slip; empty: not all sites are pulled
+  bool ring = false;  ///< the last part is next to the first one
 };
 
 /// Finds the slip events of a loaded chain while it moves (docs/loading.md). All values are in the units of the chain.
@@ -69,7 +70,7 @@ class EventLog {
   struct Open {
     std::size_t identity = 0;
     std::vector<Origin> origins;   ///< its own, and those of the events that it has met
-    double slip_of_others = 0;     ///< mean slip in other events since its begin
+    double fall_by_others = 0;     ///< fall of the load by slip in other events since its begin
     std::vector<double> first_u;   ///< u of each part at its begin, plus what the part has slipped in other events
     std::vector<double> arrivals;  ///< time at which each part passed the threshold in this event; NaN: not yet
   };
@@ -80,6 +81,7 @@ class EventLog {
   std::size_t begin(const Step& step, const Stretch& stretch);
   void join(std::size_t from, std::size_t to);
   void remove(std::size_t identity);
+  double fall_of_load(std::size_t part, double slip) const;
   void measure(const Step& step, Open& open);
   void end_finished();
   Open& open_of(std::size_t identity);
@@ -98,6 +100,7 @@ class EventLog {
   double part_length_ = 0;
   bool is_ring_ = false;
   std::vector<double> x_, last_u_, last_velocity_;
+  std::vector<double> stiffness_;                ///< the stiffness of each part in the last step
   std::vector<std::size_t> owner_, last_owner_;  ///< identity of the event in which each part moves; 0: none
   std::vector<Open> open_;
   std::vector<Joined> joined_;

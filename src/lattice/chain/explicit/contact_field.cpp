@@ -40,15 +40,20 @@ ContactField::ContactField(const Problem& p, long first, const std::vector<doubl
     : problem_(&p), contacts_(p.friction.contacts()), first_(first) {
   if (!acts()) return;
   before_ = now_ = next_ = a2;
-  const double start = p.friction.contact_at_start(), most = largest_contact(p);
+  const double most = largest_contact(p);
   limit_ = most * most;
-  for (const double squared : a2) base_.push_back(squared / (start * start));
   excess_.assign(a2.size(), 0);
-  share_.assign(a2.size(), 1 - contacts_.ambient);
+  share_.assign(a2.size(), 1);
   // We compute the contacts at t = 0 from the state, with the same operations as later. A resumed run has only the
   // state to compute them from, and must get the same bits.
-  std::vector<double> theta(a2.size());
-  for (double& age : theta) p.friction.evolution().start({&age, 1});
+  std::vector<double> theta(a2.size()), state(p.friction.state_size());
+  for (std::size_t i = 0; i < a2.size(); ++i) {
+    p.friction.start(p.grid.x(folded(p, first_ + static_cast<long>(i))), 0, state);
+    theta[i] = state[0];
+    const friction::Contacts contacts = p.friction.contacts_at(state);
+    if (p.friction.contacts_vary()) at_.push_back(contacts);
+    base_.push_back(a2[i] / contacts.strength(theta[i], 0));
+  }
   advance(first_, 0, theta, theta);
   before_ = now_ = next_;
 }
@@ -57,10 +62,12 @@ void ContactField::advance(long first, double time, std::span<const double> thet
                            std::span<const double> theta) {
   const std::size_t size = theta.size(), from = at(first);
   double* const a2 = next_.data() + from;
-  contacts_.advance(size, time, theta_before.data(), theta.data(), excess_.data() + from, a2);
+  if (at_.empty()) contacts_.advance(size, time, theta_before.data(), theta.data(), excess_.data() + from, a2);
   for (std::size_t i = 0; i < size; ++i) {
+    const friction::Contacts& contacts = at_.empty() ? contacts_ : at_[from + i];
+    if (!at_.empty()) contacts.advance(1, time, &theta_before[i], &theta[i], &excess_[from + i], &a2[i]);
     a2[i] *= base_[from + i];
-    share_[from + i] = contacts_.share(excess_[from + i]);
+    share_[from + i] = contacts.share(excess_[from + i]);
   }
   // A fixed end keeps its a^2. The scheme fixes z = u + eps a^2 sin u there, so u would move if a^2 changed.
   const Boundary& ends = problem_->boundary;

@@ -71,7 +71,8 @@ class ContactField {
   void look_ahead();
 
   const Problem* problem_;
-  friction::Contacts contacts_;
+  friction::Contacts contacts_;         ///< with the largest of numbers that vary
+  std::vector<friction::Contacts> at_;  ///< those of each site, if numbers of contacts or pores vary
   long first_;
   double limit_ = 0;            ///< largest a^2 for which the time step was chosen
   std::vector<double> base_;    ///< a^2 without ageing and pore pressure

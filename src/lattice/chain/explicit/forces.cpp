@@ -211,10 +211,11 @@ void Forces::age(long first, std::size_t size, const double* now, const double* 
   }
 }
 
-void Forces::age_contacts(long first, std::size_t size, const double* velocity, double* theta) {
-  double before[together];
-  std::copy_n(theta, size, before);
-  problem_.friction.evolution().advance_all(size, friction::Slips::at(velocity), dt_, variables_, theta);
+void Forces::age_contacts(long first, std::size_t size, const double* velocity, double* states) {
+  double before[together], theta[together];
+  for (std::size_t i = 0; i < size; ++i) before[i] = states[variables_ * i];
+  problem_.friction.evolution().advance_all(size, friction::Slips::at(velocity), dt_, variables_, states);
+  for (std::size_t i = 0; i < size; ++i) theta[i] = states[variables_ * i];
   contacts_.advance(first, dt_, {before, size}, {theta, size});
 }
 

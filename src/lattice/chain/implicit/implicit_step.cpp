@@ -296,10 +296,12 @@ void ImplicitStep::add_energies(ChainState& m, double dt) const {
 ImplicitStep::Works ImplicitStep::works_at(const ChainState& m, std::size_t j, double dt) const {
   const bool held = springs_.held(j);
   const double p = held ? 0 : mean_velocity(j), weight = springs_.weight(j), K = forces_.pull(j);
-  const double velocity = forces_.problem().loading.velocity;
   Works at;
   at.supplied = weight * dt * (forcing_[j] + springs_.drive(j, drives_.left, drives_.right)) * p;
-  if (K > 0) at.supplied += weight * dt * K * velocity * forces_.stretch(j, m.u[j] + dt * p / 2, m.time + dt / 2);
+  if (K > 0) {
+    const double stretch = forces_.stretch(j, m.u[j] + dt * p / 2, m.time + dt / 2);
+    at.supplied += weight * dt * K * forces_.pulled_at(j) * stretch;
+  }
   if (held) return at;
   if (forces_.rubs()) at.dissipated = weight * dt * friction_[j] * p;
   if (!forces_.has_changing_contacts()) return at;

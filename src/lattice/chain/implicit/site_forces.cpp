@@ -20,6 +20,13 @@ SiteForces::SiteForces(const Problem& p, ChainState& now, const Ranks& ranks)
   for (std::size_t j = 0; variables_ > 0 && j < sites(); ++j)
     p.friction.start(x(j), 0, std::span(now.state).subspan(variables_ * j, variables_));
   start_contacts(now);
+  place_springs();
+}
+
+void SiteForces::place_springs() {
+  const Loading& l = problem_.loading;
+  for (std::size_t j = 0; l.stiffness_at && j < sites(); ++j) stiffness_.push_back(l.stiffness_at(x(j)));
+  for (std::size_t j = 0; l.velocity_at && j < sites(); ++j) velocity_.push_back(l.velocity_at(x(j)));
 }
 
 void SiteForces::start_contacts(ChainState& now) {
@@ -31,13 +38,14 @@ void SiteForces::start_contacts(ChainState& now) {
     now.a2.push_back(a * a);
   }
   if (!contacts_.act()) return;
-  const double a = p.friction.contact_at_start();
-  for (const double a2 : now.a2) base_.push_back(a2 / (a * a));
+  for (std::size_t j = 0; j < sites(); ++j)
+    base_.push_back(now.a2[j] / contacts_at(now, j).strength(now.state[variables_ * j], 0));
   strengthen_contacts(now);
 }
 
 void SiteForces::strengthen_contacts(ChainState& m) const {
-  for (std::size_t j = 0; j < base_.size(); ++j) m.a2[j] = base_[j] * contacts_.strength(m.state[j], m.excess[j]);
+  for (std::size_t j = 0; j < base_.size(); ++j)
+    m.a2[j] = base_[j] * contacts_at(m, j).strength(m.state[variables_ * j], m.excess[j]);
 }
 
 double SiteForces::forcing(const ChainState& m, std::size_t j) const {
@@ -47,8 +55,11 @@ double SiteForces::forcing(const ChainState& m, std::size_t j) const {
 SiteForces::Drives SiteForces::drives_of_ends(double time) const {
   const Problem& p = problem_;
   if (!springs_.holds_an_end() || p.friction.steep_at_rest()) return {};
-  const double pulled = p.loading.where == Pulled::everywhere ? p.loading.stiffness * p.loading.velocity * time : 0;
-  const auto at = [&](double x) { return (p.forcing ? p.forcing(x, time) : 0) + pulled; };
+  const auto at = [&](double x) {
+    const Loading& l = p.loading;
+    const double pulled = l.where == Pulled::everywhere ? l.stiffness_of(x) * l.velocity_of(x) * time : 0;
+    return (p.forcing ? p.forcing(x, time) : 0) + pulled;
+  };
   return {at(p.grid.x(0)), at(p.grid.x(p.grid.sites - 1))};
 }
 
@@ -76,13 +87,14 @@ std::span<const double> SiteForces::evolved(const ChainState& m, std::size_t j, 
 }
 
 SiteForces::Aged SiteForces::aged(const ChainState& m, std::size_t j, double p, double dt) const {
-  const double theta = m.state[j], excess = m.excess[j];
+  const friction::Contacts contacts = contacts_at(m, j);
+  const double theta = m.state[variables_ * j], excess = m.excess[j];
   State middle, end;
   evolved(m, j, p, dt / 2, middle);
   evolved(m, j, p, dt, end);
-  const double after = contacts_.excess_after(dt, excess, theta, end[0]);
-  return {end[0], after, base_.empty() ? 0 : base_[j] * contacts_.strength(end[0], after),
-          contacts_.share(contacts_.excess_after(dt / 2, excess, theta, middle[0]))};
+  const double after = contacts.excess_after(dt, excess, theta, end[0]);
+  return {end[0], after, base_.empty() ? 0 : base_[j] * contacts.strength(end[0], after),
+          contacts.share(contacts.excess_after(dt / 2, excess, theta, middle[0]))};
 }
 
 void SiteForces::evolve(ChainState& m, std::size_t j, double p, double dt) const {
@@ -93,7 +105,7 @@ void SiteForces::evolve(ChainState& m, std::size_t j, double p, double dt) const
     return;
   }
   const Aged then = aged(m, j, p, dt);
-  m.state[j] = then.theta;
+  m.state[variables_ * j] = then.theta;
   m.excess[j] = then.excess;
   if (!base_.empty()) m.a2[j] = then.a2;
 }

@@ -79,11 +79,12 @@ class SiteForces {
 
   double contact_squared(const ChainState& m, std::size_t j) const { return m.a2.empty() ? all_contact_ : m.a2[j]; }
   double effective_stress(const ChainState& m, std::size_t j) const {
-    return contacts_.act() ? contacts_.share(m.excess[j]) : 1;
+    return contacts_.act() ? contacts_at(m, j).share(m.excess[j]) : 1;
   }
   /// Stiffness of the spring that loads a site, per length.
   double pull(std::size_t site) const {
     const Loading& l = problem_.loading;
+    if (!stiffness_.empty()) return stiffness_[site];
     if (l.where == Pulled::everywhere) return l.stiffness;
     const bool pulled = l.where == Pulled::left ? springs_.at_left_end(site) : springs_.at_right_end(site);
     return pulled ? (1 - share_of_end()) * l.stiffness / springs_.weight(site) : 0;
@@ -105,10 +106,10 @@ class SiteForces {
     double left = 0, right = 0;
   };
   Drives drives_of_ends(double time) const;
+  /// Velocity of the far end of the spring at a site.
+  double pulled_at(std::size_t site) const { return velocity_.empty() ? problem_.loading.velocity : velocity_[site]; }
   /// Stretch of the spring at a site that is displaced by u.
-  double stretch(std::size_t j, double u, double time) const {
-    return problem_.loading.velocity * time - (u - first_u_[j]);
-  }
+  double stretch(std::size_t j, double u, double time) const { return pulled_at(j) * time - (u - first_u_[j]); }
   double friction(const ChainState& m, std::size_t j, double velocity) const;
   double loading_energy(const ChainState& m) const;  ///< (all) in the springs that pull
 
@@ -136,15 +137,22 @@ class SiteForces {
 
  private:
   void start_contacts(ChainState& now);
+  void place_springs();
+  /// The contacts of a site, whose numbers may vary.
+  friction::Contacts contacts_at(const ChainState& m, std::size_t j) const {
+    if (!problem_.friction.contacts_vary()) return contacts_;
+    return problem_.friction.contacts_at(friction::LocalState(m.state).subspan(variables_ * j, variables_));
+  }
 
   Problem problem_;
   std::size_t variables_;
   bool rubs_;
   CompactSprings springs_;
-  double all_contact_;  ///< a^2 where it is the same everywhere
-  friction::Contacts contacts_;
+  double all_contact_;           ///< a^2 where it is the same everywhere
+  friction::Contacts contacts_;  ///< with the largest of numbers that vary
   std::vector<double> base_;  ///< a^2 of contacts without age and pores without pressure; empty unless contacts change
   std::vector<double> first_u_;
+  std::vector<double> stiffness_, velocity_;  ///< the springs have these; empty unless they vary
 };
 
 }  // namespace slipfront::chain

@@ -19,6 +19,20 @@ std::size_t count_of_parts(const Problem& p, const std::vector<double>& ends) {
   return static_cast<std::size_t>(std::clamp(wanted, 1.0, 64.0));
 }
 
+/// The mean stiffness of the springs of each part.
+std::vector<double> stiffness_of_parts(const Problem& p, std::size_t count) {
+  std::vector<double> means(count, p.loading.stiffness);
+  if (!p.loading.stiffness_at) return means;
+  const Blocks blocks{p.grid.sites};
+  for (std::size_t i = 0; i < count; ++i) {
+    double sum = 0;
+    const std::size_t begin = blocks.part_begin(i, count), end = blocks.part_begin(i + 1, count);
+    for (std::size_t j = begin; j < end; ++j) sum += p.loading.stiffness_at(p.grid.x(j));
+    means[i] = sum / static_cast<double>(end - begin);
+  }
+  return means;
+}
+
 }  // namespace
 
 std::vector<double> middles_of_parts(const Problem& p, std::size_t count) {
@@ -37,7 +51,7 @@ WatchedParts::WatchedParts(const SiteForces& forces, const ChainState& now)
   const std::size_t intervals = p.boundary.periodic ? p.grid.sites : p.grid.sites - 1;
   parts_.length = static_cast<double>(intervals) * p.grid.spacing / static_cast<double>(count);
   parts_.ring = p.boundary.periodic;
-  parts_.stiffness = p.loading.where == Pulled::everywhere ? p.loading.stiffness : 0;
+  if (p.loading.where == Pulled::everywhere) parts_.stiffness = stiffness_of_parts(p, count);
   for (auto* column : {&parts_.u, &parts_.velocity}) column->resize(count);
   parts_.x = middles_of_parts(p, count);
   own.blocks.each_piece(count, [&](std::size_t part, std::size_t begin, std::size_t end) {

@@ -78,7 +78,7 @@ double memory_needed(const Problem& p) {
   // add the pressure and six numbers each.
   const auto state = static_cast<double>(p.friction.state_size());
   const bool changes = p.friction.changes_contacts();
-  const double by_implicit = 40 + 3 * state;
+  const double by_implicit = 40 + 3 * state + (p.loading.stiffness_at ? 1 : 0) + (p.loading.velocity_at ? 1 : 0);
   const double by_explicit = 3 + state + (p.contact || changes ? 1 : 0) + (changes ? 7 : 0) +
                              (!p.forcing         ? 0
                               : p.steady_forcing ? 2
