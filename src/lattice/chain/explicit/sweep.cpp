@@ -77,7 +77,7 @@ void WorkMeter::add_friction(std::size_t begin, std::size_t end, const Steps& s)
     add_product(1, s.applied, s.D);
   } else {
     const std::size_t size = end - begin;
-    for (std::size_t j = 0; j < size; ++j) s.scratch[j] = std::fabs(s.D[j]) / dt_;
+    speeds(1 / dt_, s.D, s.scratch, size);
     friction.loops().strengths(size, s.scratch, s.states, s.further);
     add_product(dt_, s.scratch, s.further);
   }
