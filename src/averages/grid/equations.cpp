@@ -42,7 +42,7 @@ SLIPFRONT_CLONES void find_sides(std::size_t size, const double* value, std::ptr
 
 void Trains::resize(std::size_t count) {
   for (auto* array : {&gradient, &spacing, &momentum, &s, &phi, &psi, &sound, &EK, &velocity, &solved})
-    array->assign(count, 0);
+    array->resize(count);
 }
 
 modulation::StateArrays Trains::arrays(std::size_t first, std::size_t last) {
@@ -53,11 +53,13 @@ modulation::StateArrays Trains::arrays(std::size_t first, std::size_t last) {
 
 /// Solves again for trains whose guess was poor, as those that a front or lines of another density have reached.
 void Trains::solve_again(std::size_t first, std::size_t last) {
-  std::vector<std::size_t> left;
+  thread_local std::vector<std::size_t> left;  // kept between calls, which then allocate nothing
+  thread_local Trains some;
+  left.clear();
   for (std::size_t i = first; i < last; ++i)
     if (solved[i] == 0) left.push_back(i);
   if (left.empty()) return;
-  Trains some;
+  while (left.size() % 8 != 0) left.push_back(left.back());  // whole vectors
   some.resize(left.size());
   for (auto of : {&Trains::spacing, &Trains::momentum})
     for (std::size_t j = 0; j < left.size(); ++j) (some.*of)[j] = (this->*of)[left[j]];
