@@ -241,7 +241,8 @@ std::unique_ptr<plane::Solver> plane_solver(const Scenario& s, SolverKind solver
   require_plane(s);
   const char* const slip_key = s.initial.file.empty() ? "initial.formula" : "initial.file";
   const auto make = [&]() -> std::unique_ptr<plane::Solver> {
-    if (solver == SolverKind::plane && s.plane->on_grid) return plane::grid_solver(s.plane->problem, s.plane->cells);
+    if (solver == SolverKind::plane && s.plane->on_grid)
+      return plane::grid_solver(s.plane->problem, s.plane->cells, threads);
     if (solver == SolverKind::plane)
       return plane::loops_solver(s.plane->problem, {.loops = s.plane->loops, .angles = s.plane->angles});
     const plane::DirectOptions options{.scale = scale_of_lines(s),

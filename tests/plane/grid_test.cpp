@@ -247,6 +247,14 @@ TEST(PlaneGrid, ResumesToTheSameBits) {
   for (const Problem& p : {barrier(), weakening(), ageing()}) expect_the_same_bits(p);
 }
 
+TEST(PlaneGrid, ThreadsDoNotChangeTheBits) {
+  for (const Problem& p : {barrier(), weakening(), ageing(), friction_on_one_side()}) {
+    const auto one = plane::grid_solver(p, 40), three = plane::grid_solver(p, 40, 3);
+    for (const auto* solver : {&one, &three}) (*solver)->advance_to(0.2, {});
+    EXPECT_EQ(saved(*three), saved(*one));
+  }
+}
+
 std::string grid_message_of(const Problem& problem, int cells = 20) {
   try {
     const auto solver = plane::grid_solver(problem, cells);

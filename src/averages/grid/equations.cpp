@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "math/digits.hpp"
+#include "math/simd/vector_code.hpp"
 #include "math/weno.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/theory/modulation/modulation.hpp"
@@ -24,49 +25,55 @@ constexpr double meeting_velocity = 0.01;
 
 double g_of(double EK) { return 4 * EK / (pi * pi); }
 
-struct Sides {
-  double below, above;
-};
-/// Values on both sides of the face below a cell, from averages of cells.
-Sides sides(const double* value, std::ptrdiff_t step, bool low_order) {
-  const double a = value[-3 * step], b = value[-2 * step], c = value[-step], d = value[0], e = value[step],
-               f = value[2 * step];
-  if (low_order) return {c + limited(c - b, d - c) / 2, d - limited(d - c, e - d) / 2};
-  return {weno5(a, b, c, d, e), weno5(f, e, d, c, b)};
+/// Mean and jump of the values on both sides of the face below each of `size` cells, from averages of cells.
+SLIPFRONT_CLONES void find_sides(std::size_t size, const double* value, std::ptrdiff_t step, double* mean,
+                                 double* jump) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double* v = value + i;
+    const double below = weno5(v[-3 * step], v[-2 * step], v[-step], v[0], v[step]),
+                 above = weno5(v[2 * step], v[step], v[0], v[-step], v[-2 * step]);
+    mean[i] = (below + above) / 2;
+    jump[i] = above - below;
+  }
 }
 
 }  // namespace
 
 void Trains::resize(std::size_t count) {
   for (auto* array : {&gradient, &spacing, &momentum, &s, &phi, &psi, &sound, &EK, &velocity, &solved})
-    array->assign(count, 0);
+    array->resize(count);
 }
 
-modulation::StateArrays Trains::arrays() {
-  return {s.size(),   spacing.data(), momentum.data(), s.data(),        phi.data(),
-          psi.data(), sound.data(),   EK.data(),       velocity.data(), solved.data()};
+modulation::StateArrays Trains::arrays(std::size_t first, std::size_t last) {
+  const auto from = [first](std::vector<double>& values) { return values.data() + first; };
+  return {last - first, from(spacing), from(momentum), from(s),        from(phi),
+          from(psi),    from(sound),   from(EK),       from(velocity), from(solved)};
 }
 
 /// Solves again for trains whose guess was poor, as those that a front or lines of another density have reached.
-void Trains::solve_again() {
-  std::vector<std::size_t> left;
-  for (std::size_t i = 0; i < s.size(); ++i)
+void Trains::solve_again(std::size_t first, std::size_t last) {
+  thread_local std::vector<std::size_t> left;  // kept between calls, which then allocate nothing
+  thread_local Trains some;
+  left.clear();
+  for (std::size_t i = first; i < last; ++i)
     if (solved[i] == 0) left.push_back(i);
-  Trains some;
+  if (left.empty()) return;
+  while (left.size() % 8 != 0) left.push_back(left.back());  // whole vectors
   some.resize(left.size());
-  for (auto of : {&Trains::spacing, &Trains::momentum, &Trains::s})
+  for (auto of : {&Trains::spacing, &Trains::momentum})
     for (std::size_t j = 0; j < left.size(); ++j) (some.*of)[j] = (this->*of)[left[j]];
-  modulation::improve_guesses(some.arrays());
-  modulation::solve_states(some.arrays());
+  modulation::find_guesses(some.arrays(0, left.size()));
+  modulation::solve_states(some.arrays(0, left.size()));
   for (auto of : {&Trains::s, &Trains::phi, &Trains::psi, &Trains::EK, &Trains::velocity, &Trains::solved})
     for (std::size_t j = 0; j < left.size(); ++j)
       if (some.solved[j] != 0) (this->*of)[left[j]] = (some.*of)[j];
 }
 
-void solve_all(Trains& t, const std::function<std::string(std::size_t)>& where) {
-  modulation::solve_states(t.arrays());
-  t.solve_again();
-  for (std::size_t i = 0; i < t.at.size(); ++i) {
+void solve(Trains& t, std::size_t first, std::size_t last, const std::function<std::string(std::size_t)>& where) {
+  modulation::solve_states(t.arrays(first, last));
+  t.solve_again(first, last);
+  for (std::size_t i = first; i < last; ++i) {
     if (t.solved[i] != 0) continue;
     try {
       const double guess = t.s[i] > 0 ? std::atanh(std::fmin(t.s[i], 1 - 1e-16)) : 0;
@@ -92,64 +99,73 @@ double energy_density(const Trains& t, std::size_t i) {
   return g_of(t.EK[i]) * t.gradient[i] * t.gradient[i] - a * a * modulation::pressure(t.psi[i]);
 }
 
-GridEquations::GridEquations(const Problem& problem, const Cells& cells, const Walls& walls)
-    : problem_(problem), cells_(cells), walls_(walls) {
-  for (auto* pair : {&gradient_, &slope_, &flux_})
+GridEquations::GridEquations(const Problem& problem, const Cells& cells, const Walls& walls, int threads)
+    : problem_(problem), cells_(cells), walls_(walls), threads_(threads) {
+  for (auto* pair : {&gradient_, &slope_, &flux_, &transverse_, &at_faces_, &jump_})
     for (auto& array : *pair) array.assign(cells.size(), 0);
-  for (auto* array :
-       {&spread_, &transverse_, &at_faces_, &jump_, &in_cells_.guess, &in_faces_[0].guess, &in_faces_[1].guess})
+  for (auto* array : {&spread_, &in_cells_.guess, &in_faces_[0].guess, &in_faces_[1].guess})
     array->assign(cells.size(), 0);
 }
 
 void GridEquations::set_known(const std::vector<char>& known) {
   known_ = known;
   const auto moves = [&](std::size_t cell) { return known_[cell] != 0 && !walls_.held(cell); };
-  in_cells_.at.clear();
-  for (Trains& faces : in_faces_) faces.at.clear();
+  const std::array<Trains*, 3> all{&in_cells_, &in_faces_[0], &in_faces_[1]};
+  for (Trains* trains : all) {
+    trains->at.clear();
+    trains->rows.clear();
+  }
   cells_.each([&](std::size_t i, std::size_t j, std::size_t cell) {
+    for (Trains* trains : all)
+      if (i == 0) trains->rows.push_back(trains->at.size());
     if (moves(cell)) in_cells_.at.push_back(cell);
     if (i > 0 && (moves(cell) || moves(cell - 1))) in_faces_[0].at.push_back(cell);
     if (j > 0 && (moves(cell) || moves(cell - cells_.stride()))) in_faces_[1].at.push_back(cell);
   });
-  for (Trains* trains : {&in_cells_, &in_faces_[0], &in_faces_[1]}) {
+  for (Trains* trains : all) {
+    trains->rows.push_back(trains->at.size());
     trains->resize(trains->at.size());
-    trains->contact.clear();
     if (!problem_.contact) continue;
-    for (const std::size_t at : trains->at) {
-      Point p = cells_.centre(at);
-      if (trains == &in_faces_[0]) p.x -= cells_.hx / 2;
-      if (trains == &in_faces_[1]) p.y -= cells_.hy / 2;
-      trains->contact.push_back(problem_.contact(p.x, p.y));
-    }
+    trains->contact.resize(trains->at.size());
+    each_row(*trains, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        Point p = cells_.centre(trains->at[i]);
+        if (trains == &in_faces_[0]) p.x -= cells_.hx / 2;
+        if (trains == &in_faces_[1]) p.y -= cells_.hy / 2;
+        trains->contact[i] = problem_.contact(p.x, p.y);
+      }
+    });
   }
+  for (auto* pair : {&slope_, &flux_})  // 0 where nothing moves
+    for (auto& array : *pair) std::fill(array.begin(), array.end(), 0.0);
 }
 
 void GridEquations::find_gradients(const std::vector<double>& slip) {
-  for (const bool along_y : {false, true}) {
-    std::vector<double>& gradient = gradient_[along_y ? 1 : 0];
-    const std::size_t step = cells_.step(along_y);
-    const double per = 1 / cells_.spacing(along_y);
-    for (std::size_t face = step; face < slip.size(); ++face) gradient[face] = (slip[face] - slip[face - step]) * per;
-    walls_.set_gradients(slip, along_y, gradient);
-  }
+  const std::size_t row = cells_.stride();
+  for_each_on_team(slip.size() / row, threads_, [&](std::size_t j) {
+    for (const bool along_y : {false, true}) {
+      const std::size_t step = cells_.step(along_y);
+      const double per = 1 / cells_.spacing(along_y);
+      for (std::size_t face = std::max(j * row, step); face < (j + 1) * row; ++face)
+        gradient_[along_y ? 1 : 0][face] = (slip[face] - slip[face - step]) * per;
+    }
+  });
+  for (const bool along_y : {false, true}) walls_.set_gradients(slip, along_y, gradient_[along_y ? 1 : 0]);
 }
 
-void GridEquations::find_slopes() {
-  for (auto& slope : slope_) std::fill(slope.begin(), slope.end(), 0.0);
-  for (const std::size_t cell : in_cells_.at) {
-    spread_[cell] = 0;
-    for (const bool along_y : {false, true}) {
-      const std::vector<double>& g = gradient_[along_y ? 1 : 0];
-      const std::size_t step = cells_.step(along_y);
-      double below = g[cell], above = g[cell + step];
-      if (!walls_.near(cell, along_y)) {
-        const double a = g[cell - 2 * step], b = g[cell - step], c = g[cell], d = g[cell + step],
-                     e = g[cell + 2 * step], f = g[cell + 3 * step];
-        below = weno5(a, b, c, d, e);
-        above = weno5(f, e, d, c, b);
-      }
-      slope_[along_y ? 1 : 0][cell] = (below + above) / 2;
-      spread_[cell] += (above - below) / 2;
+void GridEquations::find_slopes(std::size_t first, std::size_t last) {
+  const std::size_t begin = in_cells_.at[first], count = in_cells_.at[last - 1] + 1 - begin;
+  for (const bool along_y : {false, true}) {
+    const std::vector<double>& g = gradient_[along_y ? 1 : 0];
+    std::vector<double>& slope = slope_[along_y ? 1 : 0];
+    const std::size_t step = cells_.step(along_y);
+    std::vector<double>&mean = at_faces_[0], &jump = jump_[0];  // which hold nothing yet
+    find_sides(count, &g[begin + step], static_cast<std::ptrdiff_t>(step), &mean[begin], &jump[begin]);
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t cell = in_cells_.at[i];
+      const bool near = walls_.near(cell, along_y);
+      slope[cell] = near ? (g[cell] + g[cell + step]) / 2 : mean[cell];
+      spread_[cell] = (along_y ? spread_[cell] : 0) + (near ? g[cell + step] - g[cell] : jump[cell]) / 2;
     }
   }
 }
@@ -179,40 +195,38 @@ GridEquations::Inside GridEquations::inside(std::size_t cell, const std::vector<
 }
 
 /// Lines meet in a valley of the slip that fills, and at a peak that falls.
-void GridEquations::find_meeting(const Averages& now) {
-  lines_meet_ = false;
-  for (std::size_t i = 0; i < in_cells_.at.size(); ++i) {
-    const std::size_t cell = in_cells_.at[i];
-    const double V = in_cells_.velocity[i];
-    if (!(now.slip[cell] > 0 && std::fabs(V) > meeting_velocity)) continue;
-    for (const bool along_y : {false, true}) {
-      const std::vector<double>& g = gradient_[along_y ? 1 : 0];
-      if (walls_.near(cell, along_y)) continue;
-      const double below = std::copysign(1.0, V) * g[cell],
-                   above = std::copysign(1.0, V) * g[cell + cells_.step(along_y)];
-      if (below < -no_lines && above > no_lines) lines_meet_ = true;
-    }
+bool GridEquations::meet(const Averages& now, std::size_t i) const {
+  const std::size_t cell = in_cells_.at[i];
+  const double V = in_cells_.velocity[i];
+  if (!(now.slip[cell] > 0 && std::fabs(V) > meeting_velocity)) return false;
+  for (const bool along_y : {false, true}) {
+    const std::vector<double>& g = gradient_[along_y ? 1 : 0];
+    if (walls_.near(cell, along_y)) continue;
+    const double below = std::copysign(1.0, V) * g[cell],
+                 above = std::copysign(1.0, V) * g[cell + cells_.step(along_y)];
+    if (below < -no_lines && above > no_lines) return true;
   }
+  return false;
 }
 
 /// Finds the states from the sizes of the gradients. Where there are nearly no lines, the state is that of `no_lines`.
-void GridEquations::solve(double t, Trains& trains, const std::vector<double>& action) {
-  const std::size_t n = trains.at.size();
-  for (std::size_t i = 0; i < n; ++i) {
+void GridEquations::solve_at(double t, Trains& trains, std::size_t first, std::size_t last,
+                             const std::vector<double>& action) {
+  for (std::size_t i = first; i < last; ++i) {
     const double a = trains.contact.empty() ? 1 : trains.contact[i];
     set_spacing(trains, i);
     trains.momentum[i] = 2 * pi * action[trains.at[i]] / a;
     trains.s[i] = trains.guess[trains.at[i]];
   }
-  solve_all(trains, [&](std::size_t index) {
+  solve(trains, first, last, [&](std::size_t index) {
     const Point at = cells_.centre(index);
     return "t = " + digits(t) + ", x = " + digits(at.x, 4) + ", y = " + digits(at.y, 4) + ": ";
   });
-  for (std::size_t i = 0; i < n; ++i) trains.guess[trains.at[i]] = trains.s[i];
+  for (std::size_t i = first; i < last; ++i) trains.guess[trains.at[i]] = trains.s[i];
 }
 
-void GridEquations::find_slip_rates(Averages& rate) {
-  for (std::size_t i = 0; i < in_cells_.at.size(); ++i) {
+void GridEquations::find_slip_rates(std::size_t first, std::size_t last, Averages& rate) const {
+  for (std::size_t i = first; i < last; ++i) {
     const std::size_t cell = in_cells_.at[i];
     const double V = in_cells_.velocity[i], damped = std::fmin(1, std::fabs(V) / fully_damped);
     rate.slip[cell] = V * in_cells_.gradient[i] + damped * spread_[cell];  // Eq. (8.8): U_t = tanh(phi) |grad U|
@@ -220,38 +234,70 @@ void GridEquations::find_slip_rates(Averages& rate) {
 }
 
 /// The gradients along the other direction at faces: means of both cells.
-void GridEquations::find_transverse(bool along_y) {
+void GridEquations::find_transverse(std::size_t first, std::size_t last, bool along_y) {
   const std::vector<double>& slope = slope_[along_y ? 0 : 1];
   const std::size_t step = cells_.step(along_y);
-  for (const std::size_t face : in_faces_[along_y ? 1 : 0].at)
-    transverse_[face] = (slope[face] + slope[face - step]) / 2;
-  walls_.set_transverse(slope, along_y, transverse_);
+  for (std::size_t i = first; i < last; ++i) {
+    const std::size_t face = in_faces_[along_y ? 1 : 0].at[i];
+    transverse_[along_y ? 1 : 0][face] = (slope[face] + slope[face - step]) / 2;
+  }
 }
 
 /// The wave action at faces, and its jump there, which damps short waves.
-void GridEquations::find_actions(const std::vector<double>& slip, const std::vector<double>& action, bool along_y) {
-  const std::size_t step = cells_.step(along_y);
-  for (const std::size_t face : in_faces_[along_y ? 1 : 0].at) {
-    const Sides at = sides(&action[face], static_cast<std::ptrdiff_t>(step),
-                           walls_.near(face, along_y) || walls_.near(face - step, along_y));
-    const bool is_front = (slip[face] > 0) != (slip[face - step] > 0);
-    at_faces_[face] = (at.below + at.above) / 2;
-    jump_[face] = is_front || walls_.at_face(face, along_y) ? 0 : at.above - at.below;
+void GridEquations::find_actions(const Averages& now, std::size_t first, std::size_t last, bool along_y) {
+  const std::size_t d = along_y ? 1 : 0;
+  const std::vector<std::size_t>& faces = in_faces_[d].at;
+  std::vector<double>&mean = at_faces_[d], &jump = jump_[d];
+  const std::size_t step = cells_.step(along_y), begin = faces[first], count = faces[last - 1] + 1 - begin;
+  find_sides(count, &now.action[begin], static_cast<std::ptrdiff_t>(step), &mean[begin], &jump[begin]);
+  for (std::size_t i = first; i < last; ++i) {
+    const std::size_t face = faces[i];
+    if (walls_.near(face, along_y) || walls_.near(face - step, along_y)) {
+      const double b = now.action[face - 2 * step], c = now.action[face - step], e = now.action[face],
+                   f = now.action[face + step];
+      const double below = c + limited(c - b, e - c) / 2, above = e - limited(e - c, f - e) / 2;
+      mean[face] = (below + above) / 2;
+      jump[face] = above - below;
+    }
+    const bool is_front = (now.slip[face] > 0) != (now.slip[face - step] > 0);
+    if (is_front || walls_.at_face(face, along_y)) jump[face] = 0;
   }
-  walls_.set_actions(action, along_y, at_faces_);
 }
 
-void GridEquations::find_fluxes(double t, const Averages& now, bool along_y) {
-  const std::size_t d = along_y ? 1 : 0;
+void GridEquations::find_fluxes(double t, const Averages& now) {
+  for_each_on_team(
+      cells_.ny, threads_,
+      [&](std::size_t j) {
+        for (const bool along_y : {false, true})
+          in_faces_[along_y ? 1 : 0].in_row(j, [&](std::size_t first, std::size_t last) {
+            find_transverse(first, last, along_y);
+            find_actions(now, first, last, along_y);
+          });
+      },
+      rows_at_once);
+  for (const bool along_y : {false, true}) {
+    walls_.set_transverse(slope_[along_y ? 0 : 1], along_y, transverse_[along_y ? 1 : 0]);
+    walls_.set_actions(now.action, along_y, at_faces_[along_y ? 1 : 0]);
+  }
+  for_each_on_team(
+      cells_.ny, threads_,
+      [&](std::size_t j) {
+        for (const std::size_t d : {std::size_t{0}, std::size_t{1}})
+          in_faces_[d].in_row(j, [&](std::size_t first, std::size_t last) { find_fluxes(t, first, last, d); });
+      },
+      rows_at_once);
+}
+
+void GridEquations::find_fluxes(double t, std::size_t first, std::size_t last, std::size_t d) {
   Trains& faces = in_faces_[d];
-  find_transverse(along_y);
-  find_actions(now.slip, now.action, along_y);
-  for (std::size_t i = 0; i < faces.at.size(); ++i)
-    faces.gradient[i] = std::hypot(gradient_[d][faces.at[i]], transverse_[faces.at[i]]);
-  solve(t, faces, at_faces_);
-  for (std::size_t i = 0; i < faces.at.size(); ++i) {
+  for (std::size_t i = first; i < last; ++i) {
+    const double along = gradient_[d][faces.at[i]], across = transverse_[d][faces.at[i]];
+    faces.gradient[i] = std::sqrt(along * along + across * across);
+  }
+  solve_at(t, faces, first, last, at_faces_[d]);
+  for (std::size_t i = first; i < last; ++i) {
     const std::size_t face = faces.at[i];
-    flux_[d][face] = g_of(faces.EK[i]) * gradient_[d][face] + jump_[face] / 2;
+    flux_[d][face] = g_of(faces.EK[i]) * gradient_[d][face] + jump_[d][face] / 2;
   }
 }
 
@@ -259,16 +305,20 @@ void GridEquations::find_rates(double t, Averages& now, Averages& rate) {
   cells_.mirror(now.slip);
   cells_.mirror(now.action);
   find_gradients(now.slip);
-  find_slopes();
-  for (std::size_t i = 0; i < in_cells_.at.size(); ++i) in_cells_.gradient[i] = gradient_in(in_cells_.at[i]);
-  solve(t, in_cells_, now.action);
-  find_slip_rates(rate);
-  find_meeting(now);
-  for (auto& flux : flux_) std::fill(flux.begin(), flux.end(), 0.0);
-  for (const bool along_y : {false, true}) find_fluxes(t, now, along_y);
-  for (const std::size_t cell : in_cells_.at)  // Eq. (8.4): I_t = div(g grad U) + F - <f>, with I = g U_t
+  lines_meet_ = false;
+  each_row(in_cells_, [&](std::size_t first, std::size_t last) {
+    find_slopes(first, last);
+    for (std::size_t i = first; i < last; ++i) in_cells_.gradient[i] = gradient_in(in_cells_.at[i]);
+    solve_at(t, in_cells_, first, last, now.action);
+    find_slip_rates(first, last, rate);
+    for (std::size_t i = first; i < last; ++i)
+      if (meet(now, i)) lines_meet_ = true;
+  });
+  find_fluxes(t, now);
+  each_train([&](std::size_t, std::size_t cell) {  // Eq. (8.4): I_t = div(g grad U) + F - <f>, with I = g U_t
     rate.action[cell] = (flux_[0][cell + 1] - flux_[0][cell]) / cells_.hx +
                         (flux_[1][cell + cells_.stride()] - flux_[1][cell]) / cells_.hy;
+  });
 }
 
 }  // namespace slipfront::plane

@@ -5,12 +5,15 @@
 /// V and g are those of the train with the density |grad U| / (2 pi) and the momentum 2 pi I per dislocation.
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "averages/grid/cells.hpp"
+#include "system/team.hpp"
 #include "theory/modulation/solve_states.hpp"
 
 namespace slipfront::plane {
@@ -27,17 +30,24 @@ inline constexpr double no_lines = 0.05;
 
 /// States of trains at some cells or faces, for solve_states.
 struct Trains {
-  std::vector<std::size_t> at;  ///< cells or faces
+  std::vector<std::size_t> at;    ///< cells or faces, row by row
+  std::vector<std::size_t> rows;  ///< index of the first train in each row of cells, and the number of trains
   std::vector<double> gradient, spacing, momentum, s, phi, psi, sound, EK, velocity, solved;
   std::vector<double> contact;  ///< empty: 1
   std::vector<double> guess;    ///< tanh(psi) of the last solution, for all cells or faces
+  /// Calls act(first, last) for the trains of a row, unless there are none.
+  template <class Act>
+  void in_row(std::size_t j, const Act& act) const {
+    if (rows[j] < rows[j + 1]) act(rows[j], rows[j + 1]);
+  }
   void resize(std::size_t count);
-  modulation::StateArrays arrays();
-  void solve_again();
+  modulation::StateArrays arrays(std::size_t first, std::size_t last);
+  void solve_again(std::size_t first, std::size_t last);
 };
-/// Finds the states from spacings, momenta and guesses. \throws NumericsError, whose position `where` gives, if there
-/// is none.
-void solve_all(Trains& trains, const std::function<std::string(std::size_t)>& where = {});
+/// Finds the states of some trains from spacings, momenta and guesses. \throws NumericsError, whose position `where`
+/// gives, if there is none.
+void solve(Trains& trains, std::size_t first, std::size_t last,
+           const std::function<std::string(std::size_t)>& where = {});
 /// Density of the energy of a train, g |grad U|^2 - a^2 p.
 double energy_density(const Trains& trains, std::size_t i);
 /// Sets the spacing from the gradient. Where there are nearly no lines, it is that of `no_lines`.
@@ -45,7 +55,33 @@ void set_spacing(Trains& trains, std::size_t i);
 
 class GridEquations {
  public:
-  GridEquations(const Problem& problem, const Cells& cells, const Walls& walls);
+  GridEquations(const Problem& problem, const Cells& cells, const Walls& walls, int threads = 1);
+
+  /// Calls act(first, last) for the trains of each row that has some, on all threads.
+  template <class Act>
+  void each_row(const Trains& trains, const Act& act) const {
+    for_each_on_team(
+        cells_.ny, threads_, [&](std::size_t j) { trains.in_row(j, act); }, rows_at_once);
+  }
+  /// Calls act(i, cell) for each train in a cell, on all threads.
+  template <class Act>
+  void each_train(const Act& act) const {
+    each_row(in_cells_, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) act(i, in_cells_.at[i]);
+    });
+  }
+  /// Sum over the trains in cells of act(i, cell). Its order does not depend on the number of threads.
+  template <class Act>
+  double sum_over_trains(const Act& act) const {
+    std::vector<double> sums(cells_.ny);
+    for_each_on_team(
+        cells_.ny, threads_,
+        [&](std::size_t j) {
+          for (std::size_t i = in_cells_.rows[j]; i < in_cells_.rows[j + 1]; ++i) sums[j] += act(i, in_cells_.at[i]);
+        },
+        rows_at_once);
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
+  }
 
   /// Chooses the cells that move: those whose slip is known.
   void set_known(const std::vector<char>& known);
@@ -75,27 +111,35 @@ class GridEquations {
   }
 
  private:
-  double gradient_in(std::size_t cell) const { return std::hypot(slope_[0][cell], slope_[1][cell]); }
+  static constexpr long rows_at_once = 2;  ///< few, because rows of all lengths are next to each other
+
+  double gradient_in(std::size_t cell) const {
+    return std::sqrt(slope_[0][cell] * slope_[0][cell] + slope_[1][cell] * slope_[1][cell]);
+  }
   void find_gradients(const std::vector<double>& slip);
-  void find_slopes();
-  void find_meeting(const Averages& now);
-  void solve(double t, Trains& trains, const std::vector<double>& action);
-  void find_slip_rates(Averages& rate);
-  void find_fluxes(double t, const Averages& now, bool along_y);
-  void find_transverse(bool along_y);
-  void find_actions(const std::vector<double>& slip, const std::vector<double>& action, bool along_y);
+  // These functions treat the trains of one row.
+  void find_slopes(std::size_t first, std::size_t last);
+  bool meet(const Averages& now, std::size_t i) const;
+  void solve_at(double t, Trains& trains, std::size_t first, std::size_t last, const std::vector<double>& action);
+  void find_slip_rates(std::size_t first, std::size_t last, Averages& rate) const;
+  void find_transverse(std::size_t first, std::size_t last, bool along_y);
+  void find_actions(const Averages& now, std::size_t first, std::size_t last, bool along_y);
+  void find_fluxes(double t, std::size_t first, std::size_t last, std::size_t direction);
+
+  void find_fluxes(double t, const Averages& now);
 
   const Problem& problem_;
   const Cells& cells_;
   const Walls& walls_;
+  const int threads_;
   std::vector<char> known_;
   Trains in_cells_;
   std::array<Trains, 2> in_faces_;                       ///< along x and y
   std::array<std::vector<double>, 2> gradient_, slope_;  ///< gradients of the slip, at faces and in cells
   std::array<std::vector<double>, 2> flux_;
-  std::vector<double> spread_;                        ///< half the jumps of the one-sided slopes of each cell
-  std::vector<double> transverse_, at_faces_, jump_;  ///< at the faces of one direction
-  bool lines_meet_ = false;
+  std::vector<double> spread_;                                       ///< half the jumps of the slopes of each cell
+  std::array<std::vector<double>, 2> transverse_, at_faces_, jump_;  ///< at faces: gradients, actions
+  std::atomic<bool> lines_meet_ = false;
 };
 
 }  // namespace slipfront::plane

@@ -22,18 +22,19 @@ using std::numbers::pi;
 /// The density of energy is g |grad U|^2 - a^2 p.
 GridEnergy energy(const GridMotion& motion, const GridEquations& equations, const Cells& cells) {
   Trains moving = equations.trains();
-  std::vector<double> areas;
-  areas.reserve(moving.at.size());
-  for (std::size_t i = 0; i < moving.at.size(); ++i) {
-    const GridEquations::Inside inside = equations.inside(moving.at[i], motion.now.slip);
-    areas.push_back(motion.now.slip[moving.at[i]] > 0 ? inside.area : 0);
-    moving.gradient[i] = inside.gradient;
-    set_spacing(moving, i);
-  }
-  solve_all(moving);
+  std::vector<double> areas(moving.at.size());
+  equations.each_row(moving, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const GridEquations::Inside inside = equations.inside(moving.at[i], motion.now.slip);
+      areas[i] = motion.now.slip[moving.at[i]] > 0 ? inside.area : 0;
+      moving.gradient[i] = inside.gradient;
+      set_spacing(moving, i);
+    }
+    solve(moving, first, last);
+  });
   Trains rest = moving;
   std::fill(rest.momentum.begin(), rest.momentum.end(), 0.0);
-  solve_all(rest);
+  equations.each_row(rest, [&](std::size_t first, std::size_t last) { solve(rest, first, last); });
   GridEnergy sum{0, 0};
   for (std::size_t i = 0; i < rest.at.size(); ++i) {
     const double elastic = energy_density(rest, i);
@@ -141,10 +142,10 @@ GridMotion at_rest(const Problem& problem, const Cells& cells) {
 
 class GridSolver : public Solver {
  public:
-  GridSolver(const Problem& p, int count)
+  GridSolver(const Problem& p, int count, int threads)
       : problem_(p), cells_(cells_of(problem_, count)), motion_(at_rest(problem_, cells_)), start_(motion_.now.slip) {
     largest_ = *std::max_element(start_.begin(), start_.end());
-    steps_.emplace(problem_, cells_, motion_);
+    steps_.emplace(problem_, cells_, motion_, threads);
     steps_->look();
     elastic_at_start_ = energy().elastic;
   }
@@ -282,9 +283,9 @@ class GridSolver : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> grid_solver(const Problem& problem, int cells) {
+std::unique_ptr<Solver> grid_solver(const Problem& problem, int cells, int threads) {
   require_steady_contacts(problem);
-  return std::make_unique<GridSolver>(problem, cells);
+  return std::make_unique<GridSolver>(problem, cells, threads);
 }
 
 }  // namespace slipfront::plane

@@ -23,18 +23,18 @@ constexpr double friction_share = 4;
 
 }  // namespace
 
-GridSteps::GridSteps(const Problem& problem, const Cells& cells, GridMotion& motion)
+GridSteps::GridSteps(const Problem& problem, const Cells& cells, GridMotion& motion, int threads)
     : problem_(problem),
       cells_(cells),
       motion_(motion),
       walls_(problem, cells),
-      equations_(problem, cells, walls_),
+      equations_(problem, cells, walls_, threads),
       front_(problem, cells),
       friction_acts_(problem.friction.acts()),
       acts_in_stages_(problem.friction.acts() && problem.friction.steep_at_rest()),
       sticks_(problem.friction.sticks()),
       free_(cells.size(), 0.0) {
-  if (acts_in_stages_ && !sticks_) slowed_ = std::make_unique<Slowed>(problem.friction, cells.size());
+  if (acts_in_stages_ && !sticks_) slowed_ = std::make_unique<Slowed>(problem.friction, cells);
   for (auto* averages : {&rate_, &old_}) {
     averages->slip.assign(cells.size(), 0);
     averages->action.assign(cells.size(), 0);
@@ -57,8 +57,11 @@ GridSteps::GridSteps(const Problem& problem, const Cells& cells, GridMotion& mot
   if (problem.hold) hold();
 }
 
-GridSteps::Slowed::Slowed(const friction::Friction& friction, std::size_t cells) : trains(friction, cells) {
-  for (auto* values : {&momentum, &velocity, &typical_speed, &force, &slope, &s}) values->assign(cells, 0);
+GridSteps::Slowed::Slowed(const friction::Friction& friction, const Cells& cells) {
+  for (std::size_t j = 0; j < cells.ny; ++j) rows.emplace_back(friction, cells.nx);
+  for (auto* values : {&momentum, &velocity, &typical_speed, &force, &slope, &s, &fastest, &mean_force})
+    values->assign(cells.size(), 0);
+  state_values.resize(friction.state_size() * cells.size());
 }
 
 /// The static load is the opposite of what would move the lines at t = 0.
@@ -98,24 +101,40 @@ void GridSteps::release() {
 void GridSteps::add_loads(double t) {
   motion_.supply = 0;
   if (held_.empty() && !problem_.forcing) return;
-  for (const std::size_t cell : equations_.trains().at) {
+  motion_.supply = equations_.sum_over_trains([&](std::size_t, std::size_t cell) {
     double load = held_.empty() ? 0 : held_[cell];
     if (problem_.forcing) {
       const Point at = cells_.centre(cell);
       load += problem_.forcing(at.x, at.y, t);
     }
     rate_.action[cell] += load;
-    if (motion_.now.slip[cell] > 0) motion_.supply += load * rate_.slip[cell] * cells_.hx * cells_.hy;
-  }
+    return motion_.now.slip[cell] > 0 ? load * rate_.slip[cell] * cells_.hx * cells_.hy : 0;
+  });
+}
+
+/// The mean forces on the trains, by vector code.
+void GridSteps::find_forces() {
+  const Trains& trains = equations_.trains();
+  equations_.each_row(trains, [&](std::size_t first, std::size_t last) {
+    Slowed& s = *slowed_;
+    for (std::size_t i = first; i < last; ++i) {
+      const double a = trains.contact.empty() ? 1 : trains.contact[i];
+      s.fastest[i] = 2 * a * std::sinh(std::fabs(trains.phi[i])) * std::cosh(trains.psi[i]);
+      std::copy_n(state_of(trains.at[i]).begin(), each_, &s.state_values[i * each_]);
+    }
+    problem_.friction.average().mean_strengths(
+        {last - first, &s.fastest[first], &trains.s[first], {&s.state_values[first * each_], each_}},
+        problem_.friction.closure(), &s.mean_force[first], nullptr);
+  });
 }
 
 void GridSteps::find_strengths() {
   motion_.power = 0;
   if (!friction_acts_) return;
+  if (slowed_) find_forces();
   const Trains& trains = equations_.trains();
   const bool consistent = problem_.friction.closure() == friction::Closure::consistent;
-  for (std::size_t i = 0; i < trains.at.size(); ++i) {
-    const std::size_t cell = trains.at[i];
+  motion_.power = equations_.sum_over_trains([&](std::size_t i, std::size_t cell) {
     const Point at = cells_.centre(cell);
     const double size = std::fabs(motion_.now.action[cell]);
     double force = 0;
@@ -126,11 +145,12 @@ void GridSteps::find_strengths() {
     } else {
       const double a = trains.contact.empty() ? 1 : trains.contact[i];
       if (!is_released(cell))
-        force = problem_.friction.mean_strength({trains.phi[i], trains.psi[i]}, a, state_of(cell));
+        force = slowed_ ? slowed_->mean_force[i]
+                        : problem_.friction.mean_strength({trains.phi[i], trains.psi[i]}, a, state_of(cell));
       motion_.strength[cell] = sticks_ ? force : (size > 0 ? force / size : 0);
     }
-    if (motion_.now.slip[cell] > 0) motion_.power += force * std::fabs(rate_.slip[cell]) * cells_.hx * cells_.hy;
-  }
+    return motion_.now.slip[cell] > 0 ? force * std::fabs(rate_.slip[cell]) * cells_.hx * cells_.hy : 0;
+  });
 }
 
 std::optional<std::size_t> GridSteps::slowest_cell() const {
@@ -180,50 +200,52 @@ void GridSteps::look_after(double half_step) {
 void GridSteps::age(double time) {
   if (each_ == 0) return;
   const Trains& trains = equations_.trains();
-  for (std::size_t i = 0; i < trains.at.size(); ++i) {
-    const std::size_t cell = trains.at[i];
-    if (motion_.now.slip[cell] <= 0) continue;
+  equations_.each_train([&](std::size_t i, std::size_t cell) {
+    if (motion_.now.slip[cell] <= 0) return;
     const double a = trains.contact.empty() ? 1 : trains.contact[i];
     const double typical = a * std::sinh(std::fabs(trains.phi[i])) * std::exp(trains.psi[i]);
     problem_.friction.evolution().advance({std::fabs(rate_.slip[cell]), typical}, time,
                                           std::span(motion_.states).subspan(cell * each_, each_));
-  }
+  });
 }
 
 void GridSteps::slow(double time) {
   if (!friction_acts_ || acts_in_stages_) return;
-  for (const std::size_t cell : equations_.trains().at)
-    motion_.now.action[cell] *= std::exp(-motion_.strength[cell] * time);
+  equations_.each_train(
+      [&](std::size_t, std::size_t cell) { motion_.now.action[cell] *= std::exp(-motion_.strength[cell] * time); });
 }
 
-/// Slows the action in `free_` by the friction of the trains that it leaves.
-void GridSteps::slow_implicitly(double step) {
+/// Slows the action in `free_` by the friction of the trains of a row that it leaves.
+void GridSteps::slow_implicitly(double step, std::size_t first, std::size_t last) {
   constexpr double least = 1e-300;
   const Trains& trains = equations_.trains();
   Slowed& slowed = *slowed_;
+  pulse::SlowedTrains& row = slowed.rows[trains.at[first] / cells_.stride() - Cells::ghosts];
   const auto is_slowed = [&](std::size_t cell) {
     return 2 * pi * std::fabs(free_[cell]) >= least && !is_released(cell);
   };
-  for (std::size_t i = 0; i < trains.at.size(); ++i) {
+  for (std::size_t i = first; i < last; ++i) {
     const std::size_t cell = trains.at[i];
     if (!is_slowed(cell)) continue;
     const double size = 2 * pi * std::fabs(free_[cell]), before = 2 * pi * std::fabs(motion_.now.action[cell]);
-    slowed.trains.add({.cell = cell,
-                       .spacing = trains.spacing[i],
-                       .contact = trains.contact.empty() ? 1 : trains.contact[i],
-                       .state_values = motion_.states.data() + cell * each_,
-                       .free = size,
-                       .guess = std::clamp(before, 1e-6 * size, size),
-                       .s_guess = trains.s[i]});
+    row.add({.cell = cell,
+             .spacing = trains.spacing[i],
+             .contact = trains.contact.empty() ? 1 : trains.contact[i],
+             .state_values = motion_.states.data() + cell * each_,
+             .free = size,
+             .guess = std::clamp(before, 1e-6 * size, size),
+             .s_guess = trains.s[i]});
   }
-  slowed.trains.solve(step, {.momentum = slowed.momentum.data(),
-                             .velocity = slowed.velocity.data(),
-                             .typical_speed = slowed.typical_speed.data(),
-                             .force = slowed.force.data(),
-                             .slope = slowed.slope.data(),
-                             .s = slowed.s.data()});
-  for (const std::size_t cell : trains.at)
+  row.solve(step, {.momentum = slowed.momentum.data(),
+                   .velocity = slowed.velocity.data(),
+                   .typical_speed = slowed.typical_speed.data(),
+                   .force = slowed.force.data(),
+                   .slope = slowed.slope.data(),
+                   .s = slowed.s.data()});
+  for (std::size_t i = first; i < last; ++i) {
+    const std::size_t cell = trains.at[i];
     if (is_slowed(cell)) free_[cell] = std::copysign(slowed.momentum[cell] / (2 * pi), free_[cell]);
+  }
 }
 
 /// now = of_old * old + (1 - of_old) (now + step * rates). The state variables change for half a step in the first
@@ -233,22 +255,28 @@ void GridSteps::stage(double t, double step, double of_old) {
   if (of_old == 0) age(step / 2);
   add_loads(t);
   Averages& now = motion_.now;
-  for (const std::size_t cell : equations_.trains().at) {
-    double& action = free_[cell];
-    action = now.action[cell] + step * rate_.action[cell];
-    if (sticks_) action = std::copysign(std::fmax(std::fabs(action) - step * motion_.strength[cell], 0.0), action);
-  }
-  if (slowed_) slow_implicitly(step);
-  for (const std::size_t cell : equations_.trains().at) {
-    now.action[cell] = of_old * old_.action[cell] + (1 - of_old) * free_[cell];
-    now.slip[cell] = of_old * old_.slip[cell] + (1 - of_old) * (now.slip[cell] + step * rate_.slip[cell]);
-  }
+  const Trains& trains = equations_.trains();
+  equations_.each_row(trains, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t cell = trains.at[i];
+      double& action = free_[cell];
+      action = now.action[cell] + step * rate_.action[cell];
+      if (sticks_) action = std::copysign(std::fmax(std::fabs(action) - step * motion_.strength[cell], 0.0), action);
+    }
+    if (slowed_) slow_implicitly(step, first, last);
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t cell = trains.at[i];
+      now.action[cell] = of_old * old_.action[cell] + (1 - of_old) * free_[cell];
+      now.slip[cell] = of_old * old_.slip[cell] + (1 - of_old) * (now.slip[cell] + step * rate_.slip[cell]);
+    }
+  });
 }
 
 /// No wave action remains in a cell without lines.
 void GridSteps::remove_idle_actions() {
-  for (const std::size_t cell : equations_.trains().at)
+  equations_.each_train([&](std::size_t, std::size_t cell) {
     if (equations_.is_flat(cell)) motion_.now.action[cell] = 0;
+  });
 }
 
 void GridSteps::take(double end) {

@@ -29,7 +29,7 @@ struct GridMotion {
 
 class GridSteps {
  public:
-  GridSteps(const Problem& problem, const Cells& cells, GridMotion& motion);
+  GridSteps(const Problem& problem, const Cells& cells, GridMotion& motion, int threads);
   /// Advances by the longest stable step, or by a part of it so that whole steps end at `end`.
   void take(double end);
   /// Finds the states, the rates and the powers at the present time.
@@ -52,10 +52,11 @@ class GridSteps {
   void release();
   void add_loads(double t);
   void find_strengths();
+  void find_forces();
   void age(double time);
   void slow(double time);
   void stage(double t, double step, double of_old);
-  void slow_implicitly(double step);
+  void slow_implicitly(double step, std::size_t first, std::size_t last);
   void remove_idle_actions();
   /// The cell in which friction limits the step most; empty if it limits none.
   std::optional<std::size_t> slowest_cell() const;
@@ -83,11 +84,12 @@ class GridSteps {
   Averages rate_, old_;
   std::vector<double> free_;  ///< wave action of a stage, without friction at first
 
-  /// Trains that friction slows by an implicit step, and the results, by cell.
+  /// Trains that friction slows by an implicit step, row by row, and the results, by cell.
   struct Slowed {
-    pulse::SlowedTrains trains;
+    std::vector<pulse::SlowedTrains> rows;
     std::vector<double> momentum, velocity, typical_speed, force, slope, s;
-    Slowed(const friction::Friction& friction, std::size_t cells);
+    std::vector<double> fastest, state_values, mean_force;  ///< by train, at the end of a step
+    Slowed(const friction::Friction& friction, const Cells& cells);
   };
   std::unique_ptr<Slowed> slowed_;  ///< null unless friction rises steeply from rest without strength
 };

@@ -182,14 +182,15 @@ SLIPFRONT_CLONES void logarithmic_means(double a, std::size_t size, const Amplit
   }
 }
 
-SLIPFRONT_CLONES void add_asinh(std::size_t size, const double* log_A, const double* r, const double* weight,
-                                double* sum, double* slopes, double* weights) {
+SLIPFRONT_CLONES void add_asinh(std::size_t size, const double* A, const double* r, const double* weight, double* sum,
+                                double* slopes, double* weights) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
-    // A is at most 16 / s.
-    const double x = exp_branch_free(at_least(log_A[i], -650.0)) * r[i], root = std::sqrt(1 + x * x);
-    sum[i] += weight[i] * asinh_branch_free(x, root);
-    slopes[i] += weight[i] * (x / root);
+    const double x = A[i] * r[i], root = std::sqrt(1 + x * x);
+    const LogRatio asinh = asinh_ratio(x, root);
+    const double inverse = 1 / (asinh.below * root);  // one division, not two
+    sum[i] += weight[i] * (2 * asinh.half_log(root * inverse));
+    slopes[i] += weight[i] * (x * asinh.below * inverse);
     weights[i] += weight[i];
   }
 }
@@ -205,7 +206,7 @@ void means_by_table(double a, std::size_t size, const double* log_A, const doubl
 }
 
 /// Means by quadrature where A is not large, of at most PhaseNodes::most trains of one kind.
-void means_by_quadrature(double a, std::size_t size, const double* log_A, const double*, const double* s, double* mean,
+void means_by_quadrature(double a, std::size_t size, const double*, const double* A, const double* s, double* mean,
                          double* slope) {
   constexpr std::size_t most = PhaseNodes::most;
   double r[most], weight[most], weights[most] = {};
@@ -214,7 +215,7 @@ void means_by_quadrature(double a, std::size_t size, const double* log_A, const 
   std::fill_n(slope, size, 0.0);
   for (std::size_t k = 0; k < nodes.count(); ++k) {
     nodes.node(k, Closure::consistent, r, weight);
-    add_asinh(size, log_A, r, weight, mean, slope, weights);
+    add_asinh(size, A, r, weight, mean, slope, weights);
   }
   for (std::size_t i = 0; i < size; ++i) {
     mean[i] *= a / weights[i];

@@ -136,10 +136,10 @@ RunObserver::RunObserver(const ScaledProblem& scaled, const output::Schedule& sc
   choose_windows();
   const double c = scaled_.scale;
   for (std::size_t i = 0; i + 1 < schedule_.x_edges.size(); ++i)
-    first_u_.push_back(average(chain_, c * centre_of_cell(i), c * width_of_cell(i), 0).u);
+    first_u_.push_back(average_displacement(chain_, c * centre_of_cell(i), c * width_of_cell(i), 0));
   const Grid& grid = chain_.problem().grid;
   if (scaled_.left + window_ / 2 <= 0 && grid.x(grid.sites - 1) / scaled_.scale - window_ / 2 >= 0)
-    first_u_at_origin_ = average(chain_, 0, c * window_, 0).u;
+    first_u_at_origin_ = average_displacement(chain_, 0, c * window_, 0);
   else
     first_u_at_origin_ = none;
   const Totals t = totals(chain_);
@@ -223,7 +223,7 @@ std::vector<double> RunObserver::add_profile(const Sites& sites, Snapshot& s, do
   std::vector<double> velocities;
   std::size_t peak = 0;
   for (std::size_t i = 0; i < first_u_.size(); ++i) {
-    const double u = average(sites, c * centre_of_cell(i), c * width_of_cell(i), c * time).u;
+    const double u = average_displacement(sites, c * centre_of_cell(i), c * width_of_cell(i), c * time);
     const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i], middle = middle_of_cell(i);
     const double least = least_width(i);
     BestAverage best{smooth_average(sites, c * middle, c * least, c * time), c * least, none, none};
@@ -264,7 +264,7 @@ void RunObserver::widen_errors(Averages& averages, double time) const {
                k_right = scaled_.stress(std::fmin(apart, scaled_.right)), most = std::fmax(k_left, k_right);
   if (scaled_.loading.acts() || !scaled_.substrate || !(most > 0) || !(time > 0)) return;
   const double c = scaled_.scale, one = 2 * std::numbers::pi / c, change = std::fabs(k_left - k_right);
-  const double slip = (average(chain_, 0, c * window_, c * time).u - first_u_at_origin_) / c;
+  const double slip = (average_displacement(chain_, 0, c * window_, c * time) - first_u_at_origin_) / c;
   averages.velocity_error = std::fmax(averages.velocity_error, 0.55 * change / most * one / time);
   averages.stress_error = std::fmax(averages.stress_error, change * std::fmin(0.25 * one / std::fabs(slip), 2.0));
 }
@@ -291,7 +291,7 @@ void RunObserver::add_origin(const Sites& sites, Snapshot& s, double time) const
   const SmoothAverage origin = average_at_origin(sites, time).average;
   s.slip_velocity_at_origin = origin.velocity;
   s.stress_at_origin = origin.stress;
-  s.slip_at_origin = (average(sites, 0, c * window_, c * time).u - first_u_at_origin_) / c;
+  s.slip_at_origin = (average_displacement(sites, 0, c * window_, c * time) - first_u_at_origin_) / c;
 }
 
 void RunObserver::add_energy(Snapshot& s, const Totals& now) const {

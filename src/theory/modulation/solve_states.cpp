@@ -118,7 +118,20 @@ SLIPFRONT_CLONES void solve_from_logarithm(const StateArrays& a) {
   }
 }
 
-SLIPFRONT_CLONES void find_guesses(const StateArrays& a) {
+/// Guesses from K m^(1/2) = ln(4 / s) of empty trains, bent towards s = 1, with E between its limits 1 and pi / 2.
+SLIPFRONT_CLONES void guess_roughly(const StateArrays& a) {
+  constexpr double per_8E = 1 / (8 * 1.2);
+  const double *spacing = a.spacing, *momentum = a.momentum;
+  double* s = a.s;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < a.size; ++i) {
+    const double rapid = momentum[i] * per_8E, half = spacing[i] / 2;
+    const double empty = 4 * exp_branch_free(clamp(-half * std::sqrt(1 + rapid * rapid), -668.0, 0.0));
+    s[i] = empty / std::sqrt(1 + empty * empty);
+  }
+}
+
+SLIPFRONT_CLONES void take_logarithms(const StateArrays& a) {
   const double* psi = a.psi;
   double* s = a.s;
   SLIPFRONT_INDEPENDENT
@@ -174,9 +187,12 @@ void solve_states(const StateArrays& a) {
   find_rapidities(a);
 }
 
-void improve_guesses(const StateArrays& a) {
-  approach(a);
-  find_guesses(a);
+void find_guesses(const StateArrays& a) {
+  guess_roughly(a);
+  for (int i = 0; i < 2; ++i) {
+    approach(a);
+    take_logarithms(a);
+  }
 }
 
 void solve_slip(const StateArrays& a, double* fastest) {

@@ -21,8 +21,8 @@ struct StateArrays {
   double* solved;    ///< 1 or 0
 };
 void solve_states(const StateArrays& a);
-/// Replaces `s` by better guesses. From these, solve_states may solve cells that it has not solved. Overwrites psi.
-void improve_guesses(const StateArrays& a);
+/// Finds guesses of `s` from spacing and momentum. From these, solve_states solves most cells. Overwrites psi.
+void find_guesses(const StateArrays& a);
 /// Like solve_states, but without rapidities, sound speeds and EK. It finds instead the largest slip velocities in
 /// local units, 2 sinh |phi| cosh psi, which are all that friction needs.
 void solve_slip(const StateArrays& a, double* fastest);

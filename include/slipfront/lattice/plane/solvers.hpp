@@ -33,8 +33,8 @@ std::unique_ptr<Solver> loops_solver(const Problem& problem, const Resolution& r
 /// \throws InputError for an initial slip that is negative, not finite, or 0 everywhere; for friction that changes
 /// contacts; for fixed or absorbing edges where there is slip; and for a static load where the slip ends with a
 /// gradient above 0.7. Its `advance_to` \throws NumericsError also if the front reaches an edge, and if more than a
-/// tenth of the energy has come from nothing.
-std::unique_ptr<Solver> grid_solver(const Problem& problem, int cells);
+/// tenth of the energy has come from nothing. The results do not depend on the number of threads.
+std::unique_ptr<Solver> grid_solver(const Problem& problem, int cells, int threads = 1);
 
 struct DirectOptions {
   double scale = 1;      ///< factor by which x, y and t are stretched and friction is divided: as many times the lines

@@ -29,10 +29,13 @@ void ForcingInTime::at(long level, const Ranks& ranks, std::vector<double>& F) {
     for (std::size_t j = 0; j < F.size(); ++j) F[j] = formula(j, static_cast<double>(level));
     return;
   }
-  const auto weight = weights(static_cast<double>(level));
+  interpolate(level, 0, F.size(), F.data());
+}
+
+void ForcingInTime::interpolate(long level, std::size_t first, std::size_t size, double* F) const {
   std::array<const double*, nodes> values;
-  for (std::size_t i = 0; i < nodes; ++i) values[i] = values_[i].data();
-  weighted_sum(weight, values, F.data(), F.size());
+  for (std::size_t i = 0; i < nodes; ++i) values[i] = values_[i].data() + first;
+  weighted_sum(weights(static_cast<double>(level)), values, F, size);
 }
 
 /// The weights of the values at the nodes in the value at a level, by the barycentric formula.
@@ -77,7 +80,7 @@ void ForcingInTime::fill(std::size_t stride) {
   }
 }
 
-/// The largest difference from the formula at a level, at every 64th site from `first` on.
+/// The largest difference from the formula at a level, at every 256th site from `first` on.
 double ForcingInTime::largest_error(long level, std::size_t first) const {
   const auto weight = weights(static_cast<double>(level));
   double most = 0;
@@ -248,13 +251,17 @@ void Forces::exchange_all(const Ranks& ranks) {
   if (contacts_.acts()) contacts_.exchange_all(ranks);
 }
 
-void Forces::proceed(const Ranks& ranks) {
-  ++level_;
+void Forces::proceed(std::size_t levels, const Ranks& ranks) {
   if (contacts_.acts()) contacts_.proceed();
-  if (steady()) return;
-  F_before_.swap(F_now_);
-  F_now_.swap(F_next_);
-  evaluate_forcing(level_ + 1, ranks, F_next_);
+  if (!steady() && levels == 1) {
+    F_before_.swap(F_now_);
+    F_now_.swap(F_next_);
+  } else if (!steady()) {
+    find_later_F(levels - 1, first_, F_before_.size(), F_before_.data());
+    find_later_F(levels, first_, F_now_.size(), F_now_.data());
+  }
+  level_ += static_cast<long>(levels);
+  if (!steady()) evaluate_forcing(level_ + 1, ranks, F_next_);
 }
 
 void Forces::contact_coefficients(long offset, std::size_t begin, std::size_t end, double* coefficients) const {
@@ -288,7 +295,7 @@ void Forces::add_load_and_friction(const EndConditions& ends, const LevelSites& 
     if (steady())
       add_steady_drive(steady_drive_.data() + at(first), s.next + from, to - from);
     else
-      add_drive(drive_rule(), F_before(first), F_now(first), F_next(first), s.next + from, to - from);
+      add_drive(drive_rule(), s.F.before + from, s.F.now + from, s.F.next + from, s.next + from, to - from);
   }
   if (!nonlinear_) return;
   if (s.applied != nullptr) s.applied[s.left] = s.applied[s.right - 1] = 0;  // ends that are given have none

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -15,8 +16,8 @@ namespace slipfront::chain {
 
 /// A forcing F(x, t) at the sites of a rank, level by level. A formula takes a hundred times as long as a site, so
 /// where F is smooth in time it is the polynomial through its values at a few times, over as many levels as that is
-/// right to 1e-13 of its largest value. Each of these levels is compared with the formula at every 64th site, at others
-/// at the next level. Where no polynomial is right, the formula is called at each level.
+/// right to 1e-13 of its largest value. Each of these levels is compared with the formula at every 256th site, at
+/// others at the next level. Where no polynomial is right, the formula is called at each level.
 class ForcingInTime {
  public:
   ForcingInTime() = default;
@@ -26,11 +27,15 @@ class ForcingInTime {
 
   /// (all) Sets F to its values at a level >= 0. They do not depend on the levels that were asked for before.
   void at(long level, const Ranks& ranks, std::vector<double>& F);
+  /// The level after those of the last `at` at which `interpolate` gives F, too; 0 if none.
+  long end() const { return polynomial_ ? end_ : 0; }
+  /// Sets F to its values at such a level, on `size` sites from `first` on.
+  void interpolate(long level, std::size_t first, std::size_t size, double* F) const;
 
  private:
   static constexpr std::size_t nodes = 8;
   static constexpr long longest = 1024, shortest = 64;  ///< levels of a polynomial
-  static constexpr std::size_t apart = 64;              ///< sites between those that are compared
+  static constexpr std::size_t apart = 256;             ///< sites between those that are compared
 
   double formula(std::size_t site, double level) const { return forcing_(x_[site], level * dt_); }
   std::array<double, nodes> weights(double level) const;
@@ -49,13 +54,23 @@ class ForcingInTime {
   std::array<std::vector<double>, nodes> values_;
 };
 
+/// F at a level, at the level before and at the next one, from some site on. All are null without forcing, and equal if
+/// F does not change.
+struct ForceLevels {
+  const double *before = nullptr, *now = nullptr, *next = nullptr;
+  ForceLevels from(std::size_t site) const {
+    return now == nullptr ? *this : ForceLevels{before + site, now + site, next + site};
+  }
+};
+
 /// Sites [left, right) whose next level is computed, as indices of arrays that begin at site `offset` of the chain. The
 /// arrays have a vector more on either side of them.
 struct LevelSites {
   long offset;
   std::size_t left, right;
   const double *before, *now;
-  double *next, *y;                      ///< `next` may be `before`, unless friction has an implicit speed
+  double *next, *y;  ///< `next` may be `before`, unless friction has an implicit speed
+  ForceLevels F = {};
   const double* coefficients = nullptr;  ///< contact_coefficients, if a varies
   friction::LocalStates states = {};
   double* applied = nullptr;  ///< gets the friction force on each site, if it is neither linear nor constant
@@ -70,8 +85,11 @@ class Forces {
   Forces(const Problem& problem, const Scheme& scheme, const Ranks& ranks, long level, std::size_t begin,
          std::size_t end);
 
-  /// Whether one level must be complete, on all sites, before the next one begins.
-  bool level_by_level() const { return !steady() || contacts_.acts(); }
+  /// The largest number of levels by which a site may be ahead of others.
+  std::size_t reach() const {
+    if (contacts_.acts()) return 1;
+    return steady() ? halo : static_cast<std::size_t>(std::max(forcing_.end() - 1 - level_, 1L));
+  }
   /// Whether friction has an implicit speed, so that a next level needs the two before it.
   bool implicit_speed() const { return nonlinear_ && !problem_.friction.constant_strength(); }
   /// Whether a differs from 1 or changes.
@@ -84,11 +102,16 @@ class Forces {
   const ContactField& contacts() const { return contacts_; }
   /// Whether F is absent or does not change.
   bool steady() const { return F_next_.empty(); }
-  /// Arrays of F from site j on, at the present level, the level before and the next one. They are null without
-  /// forcing.
-  const double* F_now(long j) const { return F_now_.empty() ? nullptr : F_now_.data() + at(j); }
-  const double* F_before(long j) const { return steady() ? F_now(j) : F_before_.data() + at(j); }
-  const double* F_next(long j) const { return steady() ? F_now(j) : F_next_.data() + at(j); }
+  /// F from site j on at the present level.
+  ForceLevels F(long j) const {
+    if (F_now_.empty()) return {};
+    const double* const now = F_now_.data() + at(j);
+    return steady() ? ForceLevels{now, now, now} : ForceLevels{F_before_.data() + at(j), now, F_next_.data() + at(j)};
+  }
+  /// F from site j on, so many levels after the present one, at most `reach`.
+  void find_later_F(std::size_t levels, long j, std::size_t size, double* F) const {
+    forcing_.interpolate(level_ + static_cast<long>(levels), at(j), size, F);
+  }
   /// F at site j at the present level, and its rate of change. Both are 0 without forcing.
   double now(long j) const { return F_now_.empty() ? 0.0 : F_now_[at(j)]; }
   double rate(long j) const { return steady() ? 0.0 : (F_next_[at(j)] - F_before_[at(j)]) / (2 * dt_); }
@@ -114,8 +137,8 @@ class Forces {
   void exchange(const Ranks& ranks);
   /// (all) Gets everything of these sites, which windows need.
   void exchange_all(const Ranks& ranks);
-  /// (all) Moves to the next level.
-  void proceed(const Ranks& ranks);
+  /// (all) Moves on by at most `reach` levels.
+  void proceed(std::size_t levels, const Ranks& ranks);
   /// The state variables of sites from j on, `variables` for each.
   double* state_of(long j) { return state_.data() + variables_ * at(j); }
   const double* state_of(long j) const { return state_.data() + variables_ * at(j); }

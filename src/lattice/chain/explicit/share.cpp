@@ -96,7 +96,7 @@ void RankSites::make_slabs() {
     if (to < problem_.grid.sites) s.right = EndCondition::joined;
     slabs_.emplace_back(from, to - from, s);
   }
-  depth_ = forces_.level_by_level() ? 1 : std::min(halo, end_ - begin_);
+  depth_ = std::min(halo, end_ - begin_);
   sweeps_.reserve(slabs_.size());
   for (Slab& slab : slabs_)
     sweeps_.emplace_back(slab, forces_, meter_,
@@ -178,7 +178,7 @@ void RankSites::advance(std::size_t count) {
   });
   for_slabs(count, [this, count](std::size_t i) { sweeps_[i].advance(count); });
   level_ += static_cast<long>(count);
-  if (forces_.level_by_level()) forces_.proceed(ranks_);
+  forces_.proceed(count, ranks_);
 }
 
 void RankSites::check_numbers() const {

@@ -32,7 +32,8 @@ class RankSites {
   std::size_t end() const { return end_; }      ///< one past the last site of this rank
   long level() const { return level_; }
   double time() const { return static_cast<double>(level_) * scheme_.dt; }
-  std::size_t depth() const { return depth_; }  ///< largest number of levels between two exchanges
+  /// Largest number of levels until the next exchange.
+  std::size_t depth() const { return std::min(depth_, forces_.reach()); }
 
   /// Reads the levels from `source`, in pieces.
   void fill(const LevelsOf& source);

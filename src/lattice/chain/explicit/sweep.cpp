@@ -45,11 +45,11 @@ void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, co
         [&](const BlockSums& to, double factor, std::size_t at) { add_values(to, factor, s.scratch + at); });
   };
   if (problem_->forcing && forces.steady())
-    add(supplied, begin, end, 1, [&, F = forces.F_now(site)](const BlockSums& to, double factor, std::size_t at) {
+    add(supplied, begin, end, 1, [&, F = s.F.now](const BlockSums& to, double factor, std::size_t at) {
       add_products(to, factor, F + at, s.D + at);
     });
   if (problem_->forcing && !forces.steady()) {
-    works_of_force(forces.F_before(site), forces.F_now(site), forces.F_next(site), s.D, s.B, s.scratch, end - begin);
+    works_of_force(s.F.before, s.F.now, s.F.next, s.D, s.B, s.scratch, end - begin);
     add_scratch(supplied);
   }
   if (forces.contacts().acts()) {
@@ -77,7 +77,7 @@ void WorkMeter::add_friction(std::size_t begin, std::size_t end, const Steps& s)
     add_product(1, s.applied, s.D);
   } else {
     const std::size_t size = end - begin;
-    for (std::size_t j = 0; j < size; ++j) s.scratch[j] = std::fabs(s.D[j]) / dt_;
+    speeds(1 / dt_, s.D, s.scratch, size);
     friction.loops().strengths(size, s.scratch, s.states, s.further);
     add_product(dt_, s.scratch, s.further);
   }
@@ -117,6 +117,8 @@ Sweep::Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size
       u_(meter.active() ? room_ : 0),
       steps_{Aligned(meter.active() ? room_ : 0), Aligned(meter.needs_two_steps() ? room_ : 0)},
       B_(meter.needs_B() ? room_ : 0),
+      later_F_{Aligned(forces.steady() ? 0 : room_), Aligned(forces.steady() ? 0 : room_),
+               Aligned(forces.steady() ? 0 : room_)},
       D_(steps_[0].data()),
       D_before_(meter.needs_two_steps() ? steps_[1].data() : D_),
       left_now_(halo),
@@ -205,7 +207,8 @@ LevelSites Sweep::sites_at(const Tile& t, std::size_t rest) {
                .before = before_,
                .now = now_,
                .next = keeps_before ? spare_ : before_,
-               .y = y_.data()};
+               .y = y_.data(),
+               .F = F_};
   if (forces_.has_contact()) s.coefficients = coefficients_.data();
   if (forces_.variables() > 0) s.states = {states_.data(), forces_.variables()};
   if (forces_.implicit_speed()) s.applied = applied_.data();
@@ -214,6 +217,7 @@ LevelSites Sweep::sites_at(const Tile& t, std::size_t rest) {
 
 void Sweep::advance(const Tile& t, std::size_t count) {
   const std::size_t last = own + t.width;
+  F_ = forces_.F(t.offset);
   forces_.contact_coefficients(t.offset, pad, whole_vectors(last + halo), coefficients_.data());
   for (std::size_t i = 0; i < count; ++i) {
     prefetch(t, i, count);
@@ -225,7 +229,11 @@ void Sweep::advance(const Tile& t, std::size_t count) {
       s.step = {forces_.eps(), u_.data(), D_};
     }
     forces_.begin_level(t.ends, s, slab_.outflow);
-    if (i > 0) finish_step(t, s);
+    if (i > 0) {
+      finish_step(t, s);
+      next_F(t, i);
+      s.F = F_;
+    }
     forces_.add_load_and_friction(t.ends, s);
     if (meter_.needs_B()) second_differences(before_ + own, now_ + own, s.next + own, B_.data() + own, t.width);
     if (s.next == before_) {
@@ -235,6 +243,15 @@ void Sweep::advance(const Tile& t, std::size_t count) {
     }
   }
   last_step(t);
+}
+
+/// Moves F to this level of an advance.
+void Sweep::next_F(const Tile& t, std::size_t level) {
+  if (forces_.steady()) return;
+  double* const next = later_F_[level % 3].data();
+  const std::size_t size = t.width + 2 * halo + 2;  // add_drive reads one more on either side
+  forces_.find_later_F(level + 1, t.offset + static_cast<long>(pad) - 1, size, next + pad - 1);
+  F_ = {F_.now, F_.next, next};
 }
 
 /// Computes u, and the step before if it is needed.
@@ -259,6 +276,7 @@ void Sweep::finish_step(const Tile& t, const LevelSites& s) {
                 .D_before = D_before_ + own,
                 .B = B_.data() + own,
                 .u = u_.data() + own,
+                .F = F_.from(own),
                 .applied = applied_.data() + own,
                 .states = states,
                 .scratch = y_.data() + own,

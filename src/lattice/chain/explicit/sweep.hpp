@@ -29,6 +29,7 @@ class WorkMeter {
   /// A step of consecutive sites.
   struct Steps {
     const double *D, *D_before, *B, *u;  ///< D_before is of the step before; u (turns) at the end of the step
+    ForceLevels F;                       ///< at the level where the step begins
     const double* applied;               ///< friction that is neither linear nor constant
     friction::LocalStates states;
     double *scratch, *further;  ///< room for as many numbers; `further` may be `applied`
@@ -84,6 +85,7 @@ class Sweep {
   void store(const Tile& tile);
   void advance(const Tile& tile, std::size_t count);
   LevelSites sites_at(const Tile& tile, std::size_t rest);
+  void next_F(const Tile& tile, std::size_t level);
   void begin_steps(const LevelSites& sites, std::size_t last);
   void finish_step(const Tile& tile, const LevelSites& sites);
   void last_step(const Tile& tile);
@@ -97,6 +99,8 @@ class Sweep {
   Aligned arrays_[3];
   double *before_, *now_, *spare_;  ///< the levels, which take turns in these arrays
   Aligned y_, coefficients_, states_, applied_, u_, steps_[2], B_;
+  Aligned later_F_[3];
+  ForceLevels F_;                ///< at the present level of a tile; later levels take turns in `later_F_`
   double *D_, *D_before_;        ///< the last two steps, which take turns in `steps_`
   Aligned left_now_, left_old_;  ///< the sites left of the next tile before this one changes them
   Aligned left_states_, right_states_;

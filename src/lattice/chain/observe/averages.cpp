@@ -116,17 +116,36 @@ void refuse_window(const Grid& grid, double x, double width) {
                     .allowed = digits(grid.left) + " to " + digits(grid.x(grid.sites - 1))});
 }
 
-Average average(const Sites& chain, double x, double width, double time) {
+namespace {
+
+/// The sites around a window, and its ends, counted in these sites.
+struct SitesOfWindow {
+  Window sites;
+  double from, to;
+  double mean(const std::vector<double>& values) const { return integral(values, from, to) / (to - from); }
+};
+
+SitesOfWindow sites_of_window(const Sites& chain, double x, double width, double time) {
   const Grid& grid = chain.problem().grid;
   const double last = static_cast<double>(grid.sites - 1);
   const double from = (x - width / 2 - grid.left) / grid.spacing, to = (x + width / 2 - grid.left) / grid.spacing;
   if (!(width > 0) || !(from >= 0) || !(to <= last)) refuse_window(grid, x, width);
   const double begin = std::fmax(0, std::floor(from) - 3), end = std::fmin(last, std::ceil(to) + 3);
-  const Window w = chain.window(static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1, time);
-  const double sites = to - from;
-  return {x, width, integral(w.u, from - begin, to - begin) / sites,
-          integral(w.velocity, from - begin, to - begin) / sites,
-          (interpolated(w.u, from - begin) - interpolated(w.u, to - begin)) / width};
+  return {chain.window(static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1, time), from - begin,
+          to - begin};
+}
+
+}  // namespace
+
+Average average(const Sites& chain, double x, double width, double time) {
+  const SitesOfWindow w = sites_of_window(chain, x, width, time);
+  return {x, width, w.mean(w.sites.u), w.mean(w.sites.velocity),
+          (interpolated(w.sites.u, w.from) - interpolated(w.sites.u, w.to)) / width};
+}
+
+double average_displacement(const Sites& chain, double x, double width, double time) {
+  const SitesOfWindow w = sites_of_window(chain, x, width, time);
+  return w.mean(w.sites.u);
 }
 
 namespace {

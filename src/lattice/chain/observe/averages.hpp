@@ -58,6 +58,8 @@ struct Average {
 /// (all) At `time`, no more than a step away. The window should hold whole spacings 2 pi / k of the train; else one
 /// dislocation more or less shows. \throws InputError for a window outside the chain or of no width.
 Average average(const Sites& chain, double x, double width, double time);
+/// (all) Only the displacement of such an average, in less time.
+double average_displacement(const Sites& chain, double x, double width, double time);
 
 /// An average that smooths out single dislocations.
 struct SmoothAverage {

@@ -224,6 +224,11 @@ SLIPFRONT_CLONES void velocities(double per_step, const double* now, const doubl
   for (std::size_t j = 0; j < size; ++j) velocity[j] = (next[j] - now[j]) * per_step;
 }
 
+SLIPFRONT_CLONES void speeds(double per_step, const double* D, double* speed, std::size_t size) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) speed[j] = std::fabs(D[j]) * per_step;
+}
+
 namespace {
 
 /// term(j) of each site, in the sums of the blocks.

@@ -75,6 +75,8 @@ void take_speeds(double per_step, double per_weight, const double* from, const d
                  double* next, double* force, std::size_t size);
 /// Sets `velocity` to (next - now) times `per_step`.
 void velocities(double per_step, const double* now, const double* next, double* velocity, std::size_t size);
+/// Sets `speed` to |D| times `per_step`.
+void speeds(double per_step, const double* D, double* speed, std::size_t size);
 /// Consecutive blocks of sites: block i has those from begins[i] to begins[i + 1], counted from begins[0] on. Its sum
 /// is that of `lanes` numbers, one for each lane of a vector, from sums + i stride on.
 struct BlockSums {

@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Prints the table of speeds of docs/performance.md, in less than ten minutes on an idle machine.
+
+    ./run bench                              builds the program, and runs this script
+    bench/table.py [SLIPFRONT] [RUNS]        RUNS of each kind, by default 3
+
+The runs of all kinds take turns, and the least time of each counts: processor time on one thread,
+and the time on the clock with one thread and with two. Limits need `slipfront_bench`
+(CONTRIBUTING.md), and the comparison with LAMMPS needs `lmp` and `chain_run`; without them, the
+table lacks these rows."""
+
+import json
+import os
+import pathlib
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+STEP = """[initial]
+profile = "step"
+stress_left = 0.855
+stress_right = 0
+[domain]
+left = -6
+right = 6
+[time]
+end = 6.283185307179586
+"""
+STATE = ["friction.law=rate-and-state", "friction.strength=0.05", "friction.direct_effect=0.01",
+         "friction.evolution_effect=0.005", "friction.reference_velocity=0.1"]
+FORCES = {
+    "no friction": [],
+    "viscous friction": ["friction.law=viscous", "friction.coefficient=0.5"],
+    "Coulomb friction": ["friction.law=coulomb", "friction.coefficient=0.05"],
+    "power law, n = 2": ["friction.law=power", "friction.coefficient=0.1", "friction.exponent=2"],
+    "rate-and-state friction": STATE,
+    "force 0.01 sin x": ['forcing.formula="0.01*sin(x)"'],
+    "force 0.01 sin(x - t)": ['forcing.formula="0.01*sin(x-t)"'],
+    "contact 1 + 0.2 tanh x": ['interface.contact="1+0.2*tanh(x)"'],
+}
+PLANE = {
+    "barrier, grid": ["plane-barrier.toml"],
+    "nucleation, grid": ["plane-nucleation.toml"],
+    "barrier, every line": ["plane-barrier.toml", "--direct"],
+}
+LOADED = {
+    "block of 11 sites, 300 s": ["laboratory-block.toml"],
+    "block of 21 sites, 10,001 outputs": ["laboratory-block.toml", "--set", 'chain.spacing="1 cm"',
+                                          'output.every="0.03 s"'],
+    "ring of 300 dislocations, one event": ["stick-slip.toml", "--set", "domain.left=-470",
+                                            "domain.right=470", "time.end=5e5",
+                                            "output.every=1e5"],
+}
+SCALES = (30, 300, 3000)  # 900 to 90,000 sites
+
+
+def measure(command, threads):
+    """Processor time and time on the clock of a command, and what it prints."""
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    words = [*command[:3], "--quiet", "--json", "--threads", str(threads), *command[3:]]
+    done = subprocess.run(words, check=True, capture_output=True, text=True)
+    clock, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime - before.ru_utime, clock, json.loads(done.stdout)
+
+
+def least_times(commands, runs):
+    """By name: least processor time and clock time of one thread, and clock time of two."""
+    times = {name: ([], [], []) for name in commands}
+    for _ in range(runs):
+        for name, command in commands.items():
+            processor, clock, _ = measure(command, 1)
+            for column, value in zip(times[name], (processor, clock, measure(command, 2)[1])):
+                column.append(value)
+    return {name: [min(column) for column in columns] for name, columns in times.items()}
+
+
+def print_rows(title, times):
+    print(f"\n| {title} | processor time, s | first row over it | two threads over one |")
+    print("|---|---|---|---|")
+    first = next(iter(times.values()))[0]
+    for name, (processor, one, two) in times.items():
+        print(f"| {name} | {processor:.2f} | {first / processor:.2f} | {one / two:.2f} |", flush=True)
+
+
+def print_growth(program, scenario, runs):
+    print("\n| sites | G site updates a second, whole run, one thread |\n|---|---|")
+    for scale in SCALES:
+        command = [program, "chain", scenario, "--set", f"chain.scale={scale}"]
+        found = [measure(command, 1) for _ in range(runs)]
+        numbers = found[0][2]
+        updates = numbers["sites"] * numbers["steps"]
+        print(f"| {numbers['sites']} | {updates / min(f[0] for f in found) / 1e9:.2f} |", flush=True)
+
+
+def print_limits(folder):
+    bench = folder / "slipfront_bench"
+    if bench.exists():
+        print("\nLimits and kernels, one core:", flush=True)
+        subprocess.run([bench, "--benchmark_filter=limit|chain_sites/1000000/1|plane_sites",
+                        "--benchmark_min_time=0.2"], check=True)
+    if (folder / "chain_run").exists() and shutil.which("lmp"):
+        print("\nLAMMPS, the lattice of Eq. 1, one core:", flush=True)
+        subprocess.run([sys.executable, ROOT / "bench/peers/lammps_chain.py",
+                        folder / "chain_run"], check=True)
+
+
+def main():
+    program = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/release/bin/slipfront")
+    runs = int(sys.argv[2]) if len(sys.argv) > 2 else 3
+    model = [line for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+             if line.startswith("model name")]
+    print(f"{model[0].partition(': ')[2] if model else 'unknown processor'}, {os.cpu_count()} "
+          f"cores, load {os.getloadavg()[0]:.1f}")
+    with tempfile.TemporaryDirectory() as folder:
+        scenario = str(pathlib.Path(folder, "step.toml"))
+        pathlib.Path(scenario).write_text(STEP, encoding="utf-8")
+        forces = {name: [program, "chain", scenario, "--set", "chain.scale=1000", *keys]
+                  for name, keys in FORCES.items()}
+        print_rows("chain, scale 1000", least_times(forces, runs))
+        print_growth(program, scenario, runs)
+    for title, command, kinds in (("plane", "plane", PLANE), ("implicit steps", "chain", LOADED)):
+        cases = {name: [program, command, str(ROOT / "cases" / words[0]), *words[1:]]
+                 for name, words in kinds.items()}
+        print_rows(title, least_times(cases, runs))
+    print_limits(pathlib.Path(program).parent)
+
+
+if __name__ == "__main__":
+    main()
