@@ -80,8 +80,12 @@ constexpr Kind kinds[] = {
     {"a moment tensor (CMTSOLUTION)", "a TOML file with moment, duration and velocities in [event]",
      [](Text t) { return has(t, "event name:") && has(t, "Mrr:"); }, true, true, true},
     {"a kinematic source (SRF)", "slipfront event or plane FILE, or a scenario in TOML", is_srf, false, true, true},
-    {"a finite-fault model", "slipfront event FILE, or a scenario in TOML",
-     [](Text t) { return has(t.substr(0, 1000), "FINITE-SOURCE RUPTURE MODEL"); }, false, true, true},
+    {"a finite-fault model", "slipfront event or plane FILE, or a scenario in TOML",
+     [](Text t) {
+       const Text start = t.substr(0, 1000);
+       return has(start, "FINITE-SOURCE RUPTURE MODEL") || has(start, "#Fault_segment") || has(start, "ss-slip");
+     },
+     false, true, true},
     {"a scenario", "slipfront pulse, chain or plane; or a table [event] in the file",
      [](Text t) {
        return !has_table(t, "event") && (has_table(t, "initial") || has_table(t, "loading") || has_table(t, "plane"));

@@ -274,6 +274,24 @@ class FaultFormats(CommandLine):
                 says=[":2: " + says],
             )
 
+    def test_a_mesh_has_an_event_but_no_grid(self):
+        rows = rupt().split("\n")
+        for i, row in enumerate(rows[1:-1], 1):
+            cells = row.split("\t")
+            cells[4] = str(STRIKE + 5 * math.sin(i))
+            rows[i] = "\t".join(cells)
+        path = self.write("mesh.rupt", "\n".join(rows))
+        event = json.loads(self.ok("event", path, "--json", "--samples", "0"))["events"][0]
+        self.assertAlmostEqual(event["rupture_velocity_m_s"], 1000 * SPEED, delta=5)
+        out = self.path("out.srf")
+        self.refused(2, "event", path, "-o", out, says=["the subfaults form no grid"])
+
+    def test_other_commands_name_the_model(self):
+        path = self.write("a.param", param())
+        self.refused(2, "chain", path, says=["this is a finite-fault model"])
+        path = self.write("a.csv", subfaults_csv())
+        self.refused(2, "columns", path, says=["a finite-fault model, whose columns need no map"])
+
     def test_plane_takes_each(self):
         for name in ("a.param", "FFM.geojson", "a.srf", "a.rupt", "geoclaw.csv"):
             printed = self.ok("plane", self.write(name, FILES[name]), "--check")

@@ -46,7 +46,12 @@ TableNotes read_events(std::string_view text, const std::string& file, const Sin
 
 TableDescription describe_table(std::string_view text, const std::string& file, const TableOptions& options) {
   refuse_other_kinds(text, file, ReadAs::events);
-  if (&format_of(text, file) != &csv_format)
+  const Format* format = &format_of(text, file);
+  if (format == &fault_format)
+    throw InputError({.file = file,
+                      .problem = "a finite-fault model, whose columns need no map",
+                      .allowed = "slipfront event FILE; or a table with one event a row"});
+  if (format != &csv_format)
     throw InputError({.file = file, .problem = "not a table", .allowed = "a table with columns (CSV)"});
   return describe_csv(text, file, options);
 }
