@@ -49,9 +49,8 @@ from ._arrivals import arrivals
 from ._event import event
 from ._friction_ratio import damping_number, friction_ratio
 from ._fronts import fronts
-from ._laboratory import laboratory
-from ._laboratory_events import laboratory_events
-from ._hierarchy import population
+from ._population.laboratory import laboratory
+from ._population.hierarchy import population
 from ._potency import moment_duration
 from ._relations import relations
 from ._riemann import riemann

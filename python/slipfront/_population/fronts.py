@@ -7,11 +7,11 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from . import _slipfront
-from ._event import column_map
-from ._scenario import is_path, path
-from ._shown import shown
-from ._slipfront import InputError
+from .. import _slipfront
+from .._event import column_map
+from .._scenario import is_path, path
+from .._shown import shown
+from .._slipfront import InputError
 
 REQUIRED = ("shear_stress", "normal_stress", "rupture_velocity")
 

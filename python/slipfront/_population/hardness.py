@@ -6,8 +6,8 @@ y, as point masses. The posterior is the prior times the product over i of the i
 
 import math
 
-from . import _slipfront
-from ._numbers import np
+from .. import _slipfront
+from .._numbers import np
 
 #: Smallest stress for which the closed form has a velocity, and the probability outside the range of a measurement that is left out.
 LEAST_STRESS, TAIL = 0.0045, 1e-10

@@ -4,16 +4,16 @@ import math
 import time
 from collections.abc import Mapping
 
-from . import _slipfront
-from ._dataset import dataset
-from ._event import _default, _shipped, _source, column_map
-from ._files import write_dataset
-from ._numbers import np
-from ._optional import import_optional
-from ._population import forward, priors, rows
-from ._scenario import output_path
-from ._shown import shown
-from ._slipfront import InputError
+from .. import _slipfront
+from .._dataset import dataset
+from .._event import _default, _shipped, _source, column_map
+from .._files import write_dataset
+from .._numbers import np
+from .._optional import import_optional
+from .._scenario import output_path
+from .._shown import shown
+from .._slipfront import InputError
+from . import forward, priors, rows
 
 #: Quantities of single events: name, long_name, units.
 STATES = (("stress", "stress before the rupture, in mu A / pi", "1"), ("contact_ratio", "contact ratio A", "1"),
@@ -75,7 +75,7 @@ def _read(events, kind, medium, errors, columns=None):
 
 def _event_variables(likelihood, values, seed):
     """Returns quantiles of the states of single events: within their population, and each as if it were the only one."""
-    from ._population import single
+    from . import single
 
     generator = np.random.default_rng([seed, 1])
     chosen = values[generator.integers(len(values), size=EVENT_DRAWS)]
@@ -160,8 +160,8 @@ def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smalles
     >>> bool(0.3 < people.stress_median.median() < 3), people.sizes["event"]
     (True, 5)
     """
-    from ._population import sample
-    from ._population.likelihood import Likelihood
+    from . import sample
+    from .likelihood import Likelihood
 
     for name, value in (("steps", steps), ("seed", seed)):
         if isinstance(value, bool) or not isinstance(value, int) or not (20 if name == "steps" else 0) <= value < 2**31:

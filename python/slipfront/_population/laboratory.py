@@ -3,16 +3,17 @@
 import math
 from statistics import NormalDist
 
-from . import _laboratory_table, _slipfront
-from . import medium as laws
-from ._dataset import dataset
-from ._files import write_dataset
-from ._hardness_posterior import LEAST_STRESS, Evidence, Posterior, closed_form
-from ._numbers import np
-from ._scenario import output_path
-from ._shown import shown
-from ._slipfront import InputError
-from ._units import constant, values_of
+from .. import _slipfront
+from .. import medium as laws
+from .._dataset import dataset
+from .._files import write_dataset
+from .._numbers import np
+from .._scenario import output_path
+from .._shown import shown
+from .._slipfront import InputError
+from .._units import constant, values_of
+from . import fronts as of_fronts
+from .hardness import LEAST_STRESS, Evidence, Posterior, closed_form
 
 SHARES = (0.05, 0.5, 0.95)
 
@@ -234,7 +235,7 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
                                   "s_wave_speed": s_wave_speed})
     prior, scatter_prior = _range("prior", prior, 1e-12, 1e12), _range("scatter_prior", scatter_prior, 1e-6, 10)
     draws, seed, file = _count("draws", draws, 1), _count("seed", seed, 0), output_path(output, table, columns)
-    found = _laboratory_table.read(table, strict, columns, normal_stress)
+    found = of_fronts.read(table, strict, columns, normal_stress)
     plastic = float(laws.plastic_contact_ratio(nu))
     analysis = _Analysis(found.fronts, speed, plastic, prior, scatter_prior, found.file)
     random = np.random.default_rng(seed)
@@ -255,7 +256,7 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
 
 
 def _without_drops(fronts, speed, plastic, prior, scatter_prior):
-    fronts = [_laboratory_table.Front(f.name, f.line, f.shear_stress, f.normal_stress, f.front_velocity) for f in fronts]
+    fronts = [of_fronts.Front(f.name, f.line, f.shear_stress, f.normal_stress, f.front_velocity) for f in fronts]
     shares = _Analysis(fronts, speed, plastic, prior, scatter_prior).posterior.quantiles(SHARES)[0]
     return _scalars("hardness_over_modulus_from_velocity", "penetration hardness over shear modulus without the stress drops", np.exp(shares))
 
