@@ -100,7 +100,7 @@ def _constants(run):
     except InputError:
         known = dict.fromkeys(("mu", "nu", "c", "A"))
     normal = scenario_table(run, "friction").get("normal_stress")
-    return (*(known[symbol] for symbol in ("mu", "nu", "c", "A")), None if normal is None else _units.quantity("friction.normal_stress", normal, (-1, 1, -2), "5 MPa"))
+    return (*(known[symbol] for symbol in ("mu", "nu", "c", "A")), None if normal is None else _units.quantity("friction.normal_stress", normal, "pressure"))
 
 
 def _ratio(run, constants):
