@@ -4,10 +4,19 @@ from . import _slipfront
 from ._optional import import_optional
 
 
-def attributes(about):
-    """Returns the CF attributes of a variable, as in the NetCDF files. `about` is (name, long_name, dimensional_unit, reference)."""
-    _, long_name, dimensional_unit, reference = about
-    return {"long_name": long_name, "units": "1", "dimensional_unit": dimensional_unit, "references": _slipfront.reference_of(reference)}
+def about(long_name, dimensional_unit="", units="1", **further):
+    """Returns the attributes of a variable: a number, to be multiplied by its dimensional_unit."""
+    unit = {"dimensional_unit": dimensional_unit} if dimensional_unit else {}
+    return {"long_name": long_name, "units": units, **unit, **further}
+
+
+def attributes(described):
+    """Returns the CF attributes of a variable, as in the NetCDF files.
+
+    `described` is (name, long_name, dimensional_unit, reference)."""
+    _, long_name, unit, reference = described
+    return {"long_name": long_name, "units": "1", "dimensional_unit": unit,
+            "references": _slipfront.reference_of(reference)}
 
 
 def dataset(variables, coordinates=None, attrs=None):
@@ -16,8 +25,9 @@ def dataset(variables, coordinates=None, attrs=None):
 
 
 def of_columns(descriptions, columns, shape, dims, coords):
-    """Returns a Dataset with one variable for each column, of the given shape and with its description. Coordinates that have
-    the name of a variable are left out."""
-    names = [about[0] for about in descriptions]
-    return dataset({about[0]: (dims, column.reshape(shape), attributes(about)) for about, column in zip(descriptions, columns)},
-                   {key: value for key, value in coords.items() if key not in names})
+    """Returns a Dataset with a variable for each column, of this shape and with its description.
+
+    Coordinates that have the name of a variable are left out."""
+    variables = {described[0]: (dims, column.reshape(shape), attributes(described))
+                 for described, column in zip(descriptions, columns)}
+    return dataset(variables, {key: value for key, value in coords.items() if key not in variables})

@@ -67,10 +67,18 @@ def past_nan(call, *arrays, instead):
     return columns
 
 
+def whole(name, value, least=0, most=None):
+    """Returns a whole number from `least` to `most`. Raises InputError."""
+    if (isinstance(value, bool) or not isinstance(value, (int, np.integer))
+            or not least <= value <= (most or 2**63 - 1)):
+        limit = f" to {most}" if most else ""
+        raise InputError(f"{name} = '{shown(value)}': out of range; "
+                         f"allowed: a whole number from {least}{limit}")
+    return int(value)
+
+
 def thread_count(threads):
     """Number of threads for a `threads` argument; None means all cores."""
     if threads is None:
         return len(os.sched_getaffinity(0))
-    if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or not 1 <= threads <= 4096:
-        raise InputError(f"threads = '{shown(threads)}': out of range; allowed: a whole number from 1 to 4096")
-    return _slipfront.sensible_threads(int(threads))
+    return _slipfront.sensible_threads(whole("threads", threads, 1, 4096))
