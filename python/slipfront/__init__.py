@@ -1,15 +1,16 @@
 """Slip pulses on frictional interfaces.
 
-slipfront computes how fast an interface slips from the stress that is stored along it, and the stress from the slip.
+slipfront computes how fast an interface slips from the stress that is stored along it, and the
+stress from the slip.
 
-The functions have the names of the commands of the program and return xarray Datasets. A variable is dimensionless
-unless its attribute `units` gives a unit. Multiply a dimensionless variable by its attribute `dimensional_unit`. The
-attribute `references` gives its equation in the paper (Gershenzon, Bambakidis and Skinner 2015, doi
-10.3390/lubricants3020311).
+The functions have the names of the commands of the program and return xarray Datasets. A variable
+is dimensionless unless its attribute `units` gives a unit. Multiply a dimensionless variable by its
+attribute `dimensional_unit`. The attribute `references` gives its equation in the paper
+(Gershenzon, Bambakidis and Skinner 2015, doi 10.3390/lubricants3020311).
 
-    relations   stress, rupture velocity and slip velocity of a frictionless pulse, each from any other (Eqs. 8-10)
-    riemann     the waves between two uniform trains of dislocations that meet: fans and shocks (Eqs. 6-7)
-    friction_ratio
+    relations   stress, rupture velocity and slip velocity of a frictionless pulse, each from any
+    other (Eqs. 8-10) riemann     the waves between two uniform trains of dislocations that meet:
+    fans and shocks (Eqs. 6-7) friction_ratio
                 share of the slip velocity that remains under viscous friction (Fig. 10)
     damping_number
                 inverse of friction_ratio: the damping number for a given share
@@ -75,7 +76,7 @@ cases = pathlib.Path(__file__).parent / "cases"
 
 
 class _Package(types.ModuleType):
-    """The package. `import slipfront.cases` finds the folder of the scenarios and would replace the path in `cases` with a module."""
+    """The package. `import slipfront.cases` finds a folder and would replace the path `cases`."""
 
     def __setattr__(self, name, value):
         if name != "cases" or not isinstance(value, types.ModuleType):
@@ -84,5 +85,7 @@ class _Package(types.ModuleType):
 
 sys.modules[__name__].__class__ = _Package
 
-__all__ = ["FileError", "InputError", "NumericsError", "__version__", "arrivals", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "fronts", "laboratory",
-           "laboratory_events", "medium", "moment_duration", "open", "plane", "population", "pulse", "relations", "riemann", "sweep", "train"]
+__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check",
+           "compare", "damping_number", "event", "friction_ratio", "fronts", "laboratory", "medium",
+           "moment_duration", "open", "plane", "population", "pulse", "relations", "riemann",
+           "sweep", "train"]

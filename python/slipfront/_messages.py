@@ -13,7 +13,8 @@ DONE, INPUT, FILE, NUMERICS, INTERRUPTED = 0, 2, 3, 4, 130
 def complain(error):
     """Prints an error or a warning as one line on stderr, broken to fit a terminal."""
     text = shortened(" ".join(str(error).split())) or type(error).__name__
-    with contextlib.suppress(ImportError):  # without the compiled module, that is the error to print
+    # Without the compiled module, that is the error to print
+    with contextlib.suppress(ImportError):
         from ._slipfront import printable
 
         text = printable(text.encode("utf-8", "surrogateescape"))
@@ -22,8 +23,7 @@ def complain(error):
 
 
 class Interruption:
-    """Records whether the user has interrupted the program. We need it because libraries may turn the KeyboardInterrupt into
-    another error."""
+    """Whether the user has interrupted the program. Libraries may hide a KeyboardInterrupt."""
 
     seen = False
 

@@ -11,7 +11,7 @@ np = import_optional("numpy")
 
 
 def numbers(name, values):
-    """`values` as an array of doubles, copied only where it is none. Raises InputError unless it holds real numbers."""
+    """Returns real numbers as an array of doubles, copied only if need be. Raises InputError."""
     if np.ma.is_masked(values):
         raise InputError(f"{name}: some of it is masked; allowed: numbers")
     try:
@@ -43,8 +43,7 @@ def broadcasting(**given):
 
 
 def dimensions(values, array):
-    """Names of the dimensions of a result that has the shape of `values`, and its coordinates: those of a DataArray,
-    else "state" or dim_0, dim_1, ..."""
+    """Returns dimensions and coordinates of a DataArray; else "state" or dim_0, dim_1, ..."""
     if hasattr(values, "dims") and hasattr(values, "coords"):
         return values.dims, dict(values.coords)
     return (("state",) if array.ndim == 1 else tuple(f"dim_{i}" for i in range(array.ndim))), {}
@@ -53,13 +52,15 @@ def dimensions(values, array):
 def flat(**given):
     """The arguments as arrays of one shape, flat; that shape; and the names of its dimensions."""
     arrays = np.broadcast_arrays(*broadcasting(**given))
-    named = [values for values in given.values() if hasattr(values, "dims") and np.shape(values) == arrays[0].shape]
+    named = [values for values in given.values()
+             if hasattr(values, "dims") and np.shape(values) == arrays[0].shape]
     dims, coords = dimensions(named[0] if named else None, arrays[0])
-    return [np.ascontiguousarray(array).reshape(-1) for array in arrays], arrays[0].shape, dims, coords
+    return [np.ascontiguousarray(array).reshape(-1)
+            for array in arrays], arrays[0].shape, dims, coords
 
 
 def past_nan(call, *arrays, instead):
-    """Columns that call(*arrays) gives; NaN where an array is NaN, which `call` refuses: it gets `instead` there."""
+    """Returns the columns of call(*arrays), with NaN where an array is, called with `instead`."""
     missing = np.isnan(arrays).any(axis=0)
     columns = call(*(np.where(missing, other, array) for array, other in zip(arrays, instead)))
     for column in columns:

@@ -1,58 +1,61 @@
 """slipfront.riemann"""
 
 from . import _slipfront
-from ._dataset import of_columns
+from ._dataset import about, profile
 from ._numbers import flat, np, one_number
 from ._slipfront import InputError
 
-
-_about_waves = {"kind": {"long_name": "kind of the wave"},
-                "from": {"long_name": "x / t of its left edge", "units": "1", "dimensional_unit": "c"},
-                "to": {"long_name": "x / t of its right edge", "units": "1", "dimensional_unit": "c"},
-                "trains": {"long_name": "number of trains at one position in the wave", "units": "1"}}
+_waves = {"kind": {"long_name": "kind of the wave"}, "from": about("x / t of its left edge", "c"),
+          "to": about("x / t of its right edge", "c"),
+          "trains": about("number of trains at one position in the wave")}
 
 
 def _train(name, value):
     """Returns stress and velocity of a side, which is a stress or a pair."""
     if isinstance(value, (tuple, list)):
         if len(value) != 2:
-            raise InputError(f"{name} = {value!r}: {len(value)} numbers; allowed: a stress, or a stress and a velocity")
+            raise InputError(f"{name} = {value!r}: {len(value)} numbers; allowed: a stress, or a "
+                             "stress and a velocity")
         return tuple(one_number(f"{name}[{i}]", number) for i, number in enumerate(value))
     return one_number(name, value), 0.0
 
 
 def riemann(left, right, x_over_t=None, solution="trains"):
-    """The motion without friction that follows if two uniform trains of dislocations meet at x = 0: the exact Riemann problem, of
-    which the slip pulse (Eqs. 8-9) is the case with an empty right side. Where dislocations overtake each other, there are two
-    trains at one position.
+    """The motion without friction that follows if two uniform trains of dislocations meet at x = 0:
+    the exact Riemann problem, of which the slip pulse (Eqs. 8-9) is the case with an empty right
+    side. Where dislocations overtake each other, there are two trains at one position.
 
     Parameters
     ----------
     left, right : number or (number, number)
-        Stress of the train in mu A / pi (0, or 0.0045 to 1e6), and the velocity U of its dislocations in c (default: 0).
-        A stress of 0 is the empty interface. One of the two stresses is above 0.
+        Stress of the train in mu A / pi (0, or 0.0045 to 1e6), and the velocity U of its
+        dislocations in c (default: 0). A stress of 0 is the empty interface. One of the two
+        stresses is above 0.
     x_over_t : array of any shape, optional
-        Positions in the solution, in c. By default there are 201, from a quarter of the width on the left of what moves to as
-        much on the right.
+        Positions in the solution, in c. By default there are 201, from a quarter of the width on
+        the left of what moves to as much on the right.
 
     solution : str
-        "trains": exact. "shocks": one train at each position, with shocks that conserve dislocations and momentum, as in
-        slipfront.pulse. This is an approximation that depends on the frame of reference.
+        "trains": exact. "shocks": one train at each position, with shocks that conserve
+        dislocations and momentum, as in slipfront.pulse. This is an approximation that depends on
+        the frame of reference.
 
     Returns
     -------
-    xarray.Dataset with U, Sigma, W and P at x_over_t, and the same four between the waves as star_U, star_Sigma, star_W and
-    star_P. The exact solution also has slip (slip since t = 0 over t), trains (the number of trains at a position), and
-    Sigma_1, W_1, Sigma_2 and W_2 of each train, from the slower one; those of absent trains are NaN. Attributes: left_wave and
-    right_wave ("fan", "two-trains", "shock" or "none"), left_wave_edges and right_wave_edges (x/t of the edges of the wave, in
-    c, the outer one first), left_edge and right_edge (x/t of the edges of all that moves). The exact solution lists its waves
-    from left to right along the dimension wave: wave_kind ("fan", "two-trains", "vacuum" or "constant"), wave_from and wave_to
-    (x/t), and wave_trains.
-    The relative error is 1e-12 for |U| below 0.9999.
+    xarray.Dataset with U, Sigma, W and P at x_over_t, and the same four between the waves as
+    star_U, star_Sigma, star_W and star_P. The exact solution also has slip (slip since t = 0 over
+    t), trains (the number of trains at a position), and Sigma_1, W_1, Sigma_2 and W_2 of each
+    train, from the slower one; those of absent trains are NaN. Attributes: left_wave and right_wave
+    ("fan", "two-trains", "shock" or "none"), left_wave_edges and right_wave_edges (x/t of the edges
+    of the wave, in c, the outer one first), left_edge and right_edge (x/t of the edges of all that
+    moves). The exact solution lists its waves from left to right along the dimension wave:
+    wave_kind ("fan", "two-trains", "vacuum" or "constant"), wave_from and wave_to (x/t), and
+    wave_trains. The relative error is 1e-12 for |U| below 0.9999.
 
     Raises
     ------
-    InputError if a number is out of range, both sides are empty, or the solution is neither "trains" nor "shocks".
+    InputError if a number is out of range, both sides are empty, or the solution is neither
+    "trains" nor "shocks".
 
     Examples
     --------
@@ -61,7 +64,8 @@ def riemann(left, right, x_over_t=None, solution="trains"):
     ('two-trains', 'two-trains', 1.1814)
     """
     if solution not in ("trains", "shocks"):
-        raise InputError(f"solution = {solution!r}: not a solution of the Riemann problem; allowed: trains, shocks")
+        raise InputError(f"solution = {solution!r}: not a solution of the Riemann problem; "
+                         "allowed: trains, shocks")
     exact = solution == "trains"
     sides = _train("left", left), _train("right", right)
     if not any(stress for stress, _ in sides):
@@ -69,15 +73,17 @@ def riemann(left, right, x_over_t=None, solution="trains"):
     solve = _slipfront.riemann_trains if exact else _slipfront.riemann
     edges, left_wave, right_wave, between, at, *waves = solve(*sides[0], *sides[1])
     width = edges[1] - edges[0]
-    given = np.linspace(edges[0] - width / 4, edges[1] + width / 4, 201) if x_over_t is None else x_over_t
+    given = np.linspace(edges[0] - width / 4, edges[1] + width / 4,
+                        201) if x_over_t is None else x_over_t
     (x,), *rest = flat(x_over_t=given)
-    data = of_columns(_slipfront.profile_of_trains_described if exact else _slipfront.profile_described, at(x), *rest)
-    if rest[1] == ("state",):
-        about = {"long_name": "x / t", "units": "1", "dimensional_unit": "c"}
-        data = data.rename(state="x_over_t").assign_coords(x_over_t=("x_over_t", x, about))
-    star = {f"star_{about[0]}": ((), value, {**data[about[0]].attrs, "long_name": f"{about[1]} between the waves"})
-            for about, value in zip(_slipfront.profile_described, between)}
+    described = _slipfront.profile_described
+    data = profile(_slipfront.profile_of_trains_described if exact else described, at(x), x, *rest)
+    for (name, long_name, *_), value in zip(described, between):
+        data[f"star_{name}"] = (), value, {**data[name].attrs,
+                                           "long_name": f"{long_name} between the waves"}
     if exact:
-        data = data.assign({f"wave_{key}": ("wave", [each[key] for each in waves[0]], _about_waves[key]) for key in _about_waves})
-    return data.assign(star).assign_attrs(left_wave=left_wave[0], left_wave_edges=left_wave[1:], right_wave=right_wave[0], right_wave_edges=right_wave[1:],
-                                          left_edge=edges[0], right_edge=edges[1])
+        for key, attrs in _waves.items():
+            data[f"wave_{key}"] = "wave", [wave[key] for wave in waves[0]], attrs
+    return data.assign_attrs(left_wave=left_wave[0], left_wave_edges=left_wave[1:],
+                             right_wave=right_wave[0], right_wave_edges=right_wave[1:],
+                             left_edge=edges[0], right_edge=edges[1])

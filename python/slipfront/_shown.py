@@ -2,7 +2,7 @@
 
 
 def shown(value, most=80):
-    """The value as text, cut to some characters. One that is nested too deeply to be printed is shown as its type."""
+    """The value as text of at most `most` characters, or its type if it is nested too deeply."""
     try:
         text = str(value)
     except (RecursionError, ValueError):  # the second: an int of more digits than Python prints
@@ -11,6 +11,6 @@ def shown(value, most=80):
 
 
 def shortened(text, most=2000, part=800):
-    """The text with lines of at most `most` characters. A longer one loses its middle: a message begins with the name of a file, which may
-    be long, and ends with the reason."""
-    return "\n".join(line if len(line) <= most else f"{line[:part]}...{line[-part:]}" for line in text.split("\n"))
+    """The text without the middle of lines longer than `most`: the ends have name and reason."""
+    return "\n".join(line if len(line) <= most else f"{line[:part]}...{line[-part:]}"
+                     for line in text.split("\n"))

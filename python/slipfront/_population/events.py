@@ -20,8 +20,10 @@ class Events:
     kind: np.ndarray  # forward.SLIP or forward.MOMENT
     log_size: np.ndarray  # ln of the size, as forward.size has it
     size_error: np.ndarray
-    shared: np.ndarray  # covariance of the errors of log_front and log_size, from a duration that is in both
-    smallest: np.ndarray  # the log_size that an event needs to enter the catalogue; -inf if any size does
+    # Covariance of the errors of log_front and log_size, from a duration that is in both
+    shared: np.ndarray
+    # The log_size that an event needs to enter the catalogue; -inf if any size does
+    smallest: np.ndarray
 
     def __len__(self):
         return len(self.log_size)
@@ -29,13 +31,14 @@ class Events:
     def take(self, chosen):
         """Returns the events of these indices, with studies renumbered."""
         parts = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
-        parts = {name: [value[i] for i in chosen] if isinstance(value, list) else value[chosen] for name, value in parts.items()}
+        parts = {name: [value[i] for i in chosen] if isinstance(value, list) else value[chosen]
+                 for name, value in parts.items()}
         parts["study"] = np.unique(parts["study"], return_inverse=True)[1]
         return Events(**parts)
 
 
 def log_size(kind, *, speed, log_duration, log_slip=None, log_slip_time=None, log_potency=None):
-    """Returns the logarithm of the size of an event: from slip and the time that it took, or from potency."""
+    """Returns ln of the size of an event, from slip and its time, or from potency."""
     if kind == forward.SLIP:
         return np.log(np.pi / speed) + log_slip - log_slip_time
     return np.log(np.pi) + log_potency - 2 * (np.log(speed) + log_duration)

@@ -1,15 +1,11 @@
-"""Reads tables of laboratory fronts: one front a row, with its shear stress, normal stress and velocity."""
+"""Reads tables of laboratory fronts: one row has shear and normal stress and velocity."""
 
-import csv
 import dataclasses
-import io
 import math
-from collections.abc import Mapping
 from typing import Any
 
 from .. import _slipfront
-from .._event import column_map
-from .._scenario import is_path, path
+from .._event import column_map, source
 from .._shown import shown
 from .._slipfront import InputError
 
@@ -38,68 +34,59 @@ class Table:
 
 
 def _check_complete(front, file):
-    """Raises InputError for a front without a value that it needs, such as one with only a bound."""
+    """Raises InputError for a front that lacks a value, or has only a bound."""
     for quantity in ("shear_stress", "normal_stress", "front_velocity"):
         if getattr(front, quantity) is None:
             _slipfront.refuse(file, front.line, quantity, "", "no value", "a number with its unit")
 
 
 def _check_stresses(front, file):
-    """Raises InputError for stresses or errors that no experiment has. Numbers would overflow further on."""
+    """Raises InputError for stresses or errors that no experiment has and that overflow."""
     for quantity in ("shear_stress", "normal_stress"):
         value = getattr(front, quantity)
         if not value.quantile(1 - 1e-10) < 1e9 * value.middle:
-            _slipfront.refuse(file, front.line, quantity, "", "the error is too large", "a factor of 20 or less")
+            _slipfront.refuse(file, front.line, quantity, "", "the error is too large",
+                              "a factor of 20 or less")
     shear, normal = front.shear_stress.middle, front.normal_stress.middle
     ratio = shear / normal if normal > 1e-9 * shear else math.inf
     if not 1e-9 <= ratio <= 1e9:
-        _slipfront.refuse(file, front.line, "shear_stress", "", f"it is {ratio:.3g} of the normal stress", "1e-9 to 1e9")
+        _slipfront.refuse(file, front.line, "shear_stress", "",
+                          f"it is {ratio:.3g} of the normal stress", "1e-9 to 1e9")
 
 
 def text_of(table):
     """Returns (text, name) of a table as the user gives it."""
-    if isinstance(table, Mapping):
-        try:
-            lengths = {len(values) for values in table.values() if not isinstance(values, str)}
-        except TypeError:
-            lengths = set()
-        if len(lengths) != 1 or any(isinstance(values, str) for values in table.values()):
-            raise InputError("table: a dict whose values are not lists of one length; allowed: {'tau [MPa]': [1.2, 1.4], ...}")
-        out = io.StringIO()
-        csv.writer(out).writerows([list(table), *zip(*table.values())])
-        return out.getvalue(), "table"
-    if hasattr(table, "to_csv") and hasattr(table, "columns"):
-        return table.to_csv(index=False), "table"
-    if not is_path(table):
-        if isinstance(table, str):
-            return table, "table"
-        raise InputError(f"table: a {type(table).__name__}; allowed: a path, the text of a CSV table, a dict of columns or a DataFrame")
-    name = path("table", table)
+    text, name, is_path = source(table, "table", "{'tau [MPa]': [1.2, 1.4], ...}")
     try:
-        return _slipfront.read_text(name), name
+        return (_slipfront.read_text(name) if is_path else text), name
     except UnicodeDecodeError:
         raise InputError(f"{shown(name)}: not UTF-8; allowed: a CSV table in UTF-8") from None
 
 
 def _without_useless_drops(found):
     """Removes stress drops without an error, which decide nothing, with a note."""
-    useless = [front for front in found.fronts if front.stress_drop is not None and front.stress_drop.is_exact]
+    useless = [front for front in found.fronts
+               if front.stress_drop is not None and front.stress_drop.is_exact]
     for front in useless:
         front.stress_drop = None
     if useless:
-        found.notes.append(f"{len(useless)} of {len(found.fronts)} stress drops have no error and are not used, the first in line {useless[0].line}; "
-                           "allowed: an error, such as 0.20 +- 0.03 MPa")
+        found.notes.append(f"{len(useless)} of {len(found.fronts)} stress drops have no error and "
+                           f"are not used, the first in line {useless[0].line}; allowed: an error, "
+                           "such as 0.20 +- 0.03 MPa")
 
 
 def read(table, strict=False, columns=None, normal_stress=None):
-    """Returns the Table of a path, a text, a dict of columns or a DataFrame. A row that cannot be read is an error of the Table.
+    """Returns the Table of a path, a text, a dict of columns or a DataFrame. A row that cannot be
+    read is an error of the Table.
 
-    `normal_stress` is that of fronts without their own. Raises InputError if the header is unusable or no row can be read; if `strict`, also
-    for one bad row."""
-    text, file = text_of(table)
+    `normal_stress` is that of fronts without their own. Raises InputError if the header is unusable
+    or no row can be read; if `strict`, also for one bad row."""
+    text, file = _text_of(table)
     constant = None
     if normal_stress is not None:
-        constant = _slipfront.parse_measured(str(normal_stress), "pressure", "" if isinstance(normal_stress, str) else "Pa", "", 0, "normal_stress")
+        constant = _slipfront.parse_measured(str(normal_stress), "pressure",
+                                             "" if isinstance(normal_stress, str) else "Pa", "", 0,
+                                             "normal_stress")
     required = [name for name in REQUIRED if constant is None or name != "normal_stress"]
     rows, ignored, notes = _slipfront.fronts(text, file, column_map(columns), required)
     found = Table(file, [], [], ignored, notes)
@@ -116,6 +103,7 @@ def read(table, strict=False, columns=None, normal_stress=None):
             if strict:
                 raise
     if not found.fronts:
-        raise InputError(found.errors[0] if found.errors else f"{shown(file)}: no front; allowed: a header line and one row a front")
+        raise InputError(found.errors[0] if found.errors else f"{shown(file)}: no front; allowed: "
+                         "a header line and one row a front")
     _without_useless_drops(found)
     return found

@@ -5,7 +5,7 @@ from statistics import NormalDist
 
 from .. import _slipfront
 from .. import medium as laws
-from .._dataset import about, dataset
+from .._dataset import BOUND, QUANTILE, about, dataset, texts
 from .._files import write_dataset
 from .._numbers import np, whole
 from .._scenario import output_path
@@ -22,9 +22,6 @@ PREDICTIONS, CURVE = 20000, 120
 
 #: Fronts whose tau / sigma_N differs by less than this share have the same.
 SAME_RATIO = 0.02
-
-#: Attributes of a share of the values below.
-QUANTILE = about("share of the values below")
 
 
 def _range(name, values, least, most):
@@ -154,16 +151,14 @@ def _front_variables(analysis, y_new, random):
                                  / _draws_of(front.normal_stress, random), [0.05, 0.95])
                      for front in fronts]
     velocity, drop, own, deviation, of_drop = _predictions(analysis, y_new, random)
-    texts = {"name": ([front.name for front in fronts], "name of the front"),
-             "reason": (analysis.reasons, "why the front was left out")}
     rows = {"included": (np.array([not reason for reason in analysis.reasons], dtype="int8"),
                          "1 if the front is part of the inference"),
             "deviation": (deviation, "distance of the front from the prediction, in standard "
                           "deviations of ln h"),
             "stress_drop_deviation": (of_drop, "distance of the stress drop from the prediction, "
                                       "in standard deviations of its logarithm")}
-    found = {name: ("front", np.array(values, dtype=object), {"long_name": words})
-             for name, (values, words) in texts.items()}
+    found = {"name": texts("front", [front.name for front in fronts], "name of the front"),
+             "reason": texts("front", analysis.reasons, "why the front was left out")}
     found |= {name: ("front", values, about(words)) for name, (values, words) in rows.items()}
     for name, values in stresses.items():
         found |= _with_interval(name, f"measured {name.replace('_', ' ')}", values, "Pa")
@@ -284,9 +279,9 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
         variables |= _without_drops(found.fronts, *given)
     warnings = [*found.notes, *_warnings(y, scatter, priors),
                 *_contradictions(variables, np.exp(scatter))]
-    coordinates = {"bound": ("bound", ["5 %", "95 %"], {"long_name": "ends of an interval"}),
-                   "quantile": ("quantile", list(SHARES), QUANTILE),
-                   "curve_stress_ratio": ("curve", ratios, about("shear stress over normal stress"))}
+    coordinates = {**BOUND, **QUANTILE,
+                   "curve_stress_ratio": ("curve", ratios,
+                                          about("shear stress over normal stress"))}
     data = dataset(variables, coordinates, {**_attributes(found, analysis, medium, *priors),
                                             "warnings": "\n".join(warnings)})
     if file:
@@ -322,8 +317,8 @@ def _contradictions(variables, scatter):
     ratios, velocities = column("stress_ratio")[used], column("front_velocity")[used]
     if used.sum() > 1 and np.ptp(np.log(ratios)) < max(scatter[0], SAME_RATIO):
         found.append("the fronts cannot test the theory: tau / sigma_N spans only "
-                     f"{ratios.min():.3g} to {ratios.max():.3g}; the scatter from front to front is "
-                     f"{100 * scatter[1]:.2g} %, while the velocity spans a factor of "
+                     f"{ratios.min():.3g} to {ratios.max():.3g}; the scatter from front to front "
+                     f"is {100 * scatter[1]:.2g} %, while the velocity spans a factor of "
                      f"{velocities.max() / velocities.min():.3g}")
     return found
 

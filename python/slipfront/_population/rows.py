@@ -28,7 +28,7 @@ def _front(row):
 
 
 def read_row(row, errors):
-    """Returns the values of one event as a dict, or the reason for which it has none. `errors` are the deviations for exact numbers."""
+    """Returns an event as a dict, or why not. `errors`: deviations for exact numbers."""
     if row["error"]:
         return row["error"]
     duration = _duration(row)
@@ -43,31 +43,40 @@ def read_row(row, errors):
     moment, width = moment_of(row), row["width"]
     if np.isfinite(moment[0] + width[0]):
         potency = moment[0] - width[0] - np.log(row["shear_modulus"])
-        size = log_size(forward.MOMENT, speed=row["speed"], log_duration=duration[0], log_potency=potency)
+        size = log_size(forward.MOMENT, speed=row["speed"], log_duration=duration[0],
+                        log_potency=potency)
         own, kind, powers = np.hypot(moment[1], width[1]), forward.MOMENT, 2
     elif np.isfinite(row["slip"][0]):
         time = row["rise_time"] if np.isfinite(row["rise_time"][0]) else duration
-        size = log_size(forward.SLIP, speed=row["speed"], log_duration=duration[0], log_slip=row["slip"][0], log_slip_time=time[0])
+        size = log_size(forward.SLIP, speed=row["speed"], log_duration=duration[0],
+                        log_slip=row["slip"][0], log_slip_time=time[0])
         own, kind, powers = row["slip"][1], forward.SLIP, 1
     else:
         return "no slip, and no moment with a width"
-    return {"name": row["name"], "study": row["study"] or row["citation"] or f"line {row['line']}", "speed": row["speed"], "log_duration": duration[0], "log_front": log_front,
-            "front_error": front_error or errors["velocity"], "threshold": row["front_threshold"] if row["rupture_velocity_is"] == "front" else 0.0, "kind": kind,
-            "log_size": size, "size_error": np.hypot(own or errors["size"], powers * duration[1]), "shared": powers * in_front**2,
-            "unit": size - (moment[0] if kind == forward.MOMENT else row["slip"][0])}
+    return {"name": row["name"], "study": row["study"] or row["citation"] or f"line {row['line']}",
+            "speed": row["speed"], "log_duration": duration[0], "log_front": log_front,
+            "front_error": front_error or errors["velocity"], "threshold": row["front_threshold"]
+            if row["rupture_velocity_is"] == "front" else 0.0, "kind": kind, "log_size": size,
+            "size_error": np.hypot(own or errors["size"], powers * duration[1]), "shared": powers
+            * in_front**2, "unit": size - (moment[0] if kind == forward.MOMENT else row["slip"][0])}
 
 
 def arrays(found, smallest):
-    """Returns Events of dicts of read_row. `smallest` is {kind: ln of the detection limit of slip or moment in SI units}. Raises InputError."""
+    """Returns Events. `smallest`: {kind: ln of the detection limit in SI}. Raises InputError."""
     kinds = {entry["kind"] for entry in found}
     if smallest and kinds != set(smallest):
         names = {forward.SLIP: "slip", forward.MOMENT: "moment"}
         wrong = next(entry["name"] for entry in found if entry["kind"] not in smallest)
-        raise InputError(f"smallest_{names[next(iter(smallest))]}: '{wrong}' has no such size; allowed: a limit for catalogues in which each event has it")
-    columns = {key: np.array([entry[key] for entry in found]) for key in found[0] if key not in ("name", "study", "unit")}
-    limits = np.array([smallest[entry["kind"]] + entry["unit"] if smallest else -np.inf for entry in found])
+        raise InputError(f"smallest_{names[next(iter(smallest))]}: '{wrong}' has no such size; "
+                         "allowed: a limit for catalogues in which each event has it")
+    columns = {key: np.array([entry[key] for entry in found])
+               for key in found[0] if key not in ("name", "study", "unit")}
+    limits = np.array([smallest[entry["kind"]] + entry["unit"] if smallest else -np.inf
+                       for entry in found])
     below = np.flatnonzero(columns["log_size"] < limits)
     if len(below):
-        raise InputError(f"'{found[below[0]]['name']}' is below the detection limit; allowed: a limit that each event of the catalogue reaches")
+        raise InputError(f"'{found[below[0]]['name']}' is below the detection limit; allowed: a "
+                         "limit that each event of the catalogue reaches")
     studies = np.unique([entry["study"] for entry in found], return_inverse=True)[1]
-    return Events(name=[entry["name"] for entry in found], study=studies, smallest=limits, **columns)
+    return Events(name=[entry["name"] for entry in found], study=studies, smallest=limits,
+                  **columns)

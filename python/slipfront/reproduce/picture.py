@@ -21,16 +21,18 @@ class Picture:
     figure: Figure
     data: xarray.Dataset
     command: str = ""  #: command that computes the data again
-    printed: list = dataclasses.field(default_factory=list)  #: (quantity, printed, computed) of each value that the paper reads off the figure
+    # : (quantity, printed, computed) of each value that the paper reads off the figure
+    printed: list = dataclasses.field(default_factory=list)
 
 
 @functools.cache
 def captions() -> dict:
-    """Returns {name of a picture: {"title", "text", "command"}}. Names in braces in the texts are replaced by values of the run."""
+    """Returns {picture: {"title", "text", "command"}}. Texts quote values in braces."""
     return tomllib.loads(CAPTIONS.read_text(encoding="utf-8"))
 
 
 def picture(name, figure, data, printed=(), **facts) -> Picture:
-    """Returns a figure with its texts. printed: values that the paper reads off it. facts: values that the texts quote."""
+    """Returns a figure with its texts. printed: readings. facts: values that texts quote."""
     words = captions()[name]
-    return Picture(name, words["title"].format(**facts), words["text"].format(**facts), figure, data, words["command"].format(**facts), list(printed))
+    return Picture(name, words["title"].format(**facts), words["text"].format(**facts), figure,
+                   data, words["command"].format(**facts), list(printed))
