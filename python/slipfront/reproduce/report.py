@@ -7,6 +7,7 @@ import tomllib
 from .report_figures import figure, heading_of, number, table
 
 HERE = pathlib.Path(__file__).parent
+TEXTS = tomllib.loads((HERE / "glossary.toml").read_text(encoding="utf-8"))
 DOI = "https://doi.org/10.3390/lubricants3020311"
 SECTIONS = (("result", "The main result"), ("symbols", "Symbols and words"), ("numbers", "Numbers"),
             ("statements", "Statements"), ("figures", "Figures"),
@@ -32,26 +33,17 @@ def main_result(levels) -> str:
              number(row["closed_form"]), number(row["consistent"]), number(row["chain"]),
              f"{100 * row['consistent_off']:+.2f} %", number(row["paper"]),
              f"{100 * row['paper_off']:+.1f} %") for row in levels["rows"]]
-    return ("<p>Three levels of the same theory agree: the closed form (no friction), the "
-            "averaged equations (the <i>pulse</i>), and the motion of every single dislocation "
-            "(the <i>chain</i>). The pulse with the consistent closure is within "
-            f"{100 * levels['worst']:.2f} % of the chain. With the closure that the paper prints "
-            f"it is up to {100 * levels['paper']:.0f} % above, at scale {levels['scale']}. A step "
-            "of stress Σ− = 0.855 runs into an empty interface. The table gives the slip at x = 0 "
-            "by t = 2π, in b/(2π), computed in this run.</p>\n"
-            + table(heading, rows, range(1, len(heading)))
-            + "<p>The chain uses neither an average nor a closure. Its slip grows in steps of one "
-            "dislocation, and these cause most of the remaining difference. At scale 4000 the two "
-            "agree within 0.12 %, and the paper's closure is up to 37 % above the chain "
-            f"(docs/claims.md).</p>\n<pre>{html.escape(levels['command'])}</pre>\n")
+    above = TEXTS["levels"]["above"].format(worst=100 * levels["worst"], scale=levels["scale"],
+                                            paper=100 * levels["paper"])
+    return (f"<p>{above}</p>\n{table(heading, rows, range(1, len(heading)))}"
+            f"<p>{TEXTS['levels']['below']}</p>\n<pre>{html.escape(levels['command'])}</pre>\n")
 
 
 def glossary() -> str:
     """Returns the glossary, from glossary.toml."""
-    words = tomllib.loads((HERE / "glossary.toml").read_text(encoding="utf-8"))["word"]
-    return "<dl>" + "".join(
-        f"<dt>{html.escape(word['name'])}</dt><dd>{html.escape(word['meaning'])}</dd>\n"
-        for word in words) + "</dl>\n"
+    return "<dl>" + "".join(f"<dt>{html.escape(word['name'])}</dt><dd>"
+                            f"{html.escape(word['meaning'])}</dd>\n"
+                            for word in TEXTS["word"]) + "</dl>\n"
 
 
 def numbers_section(rows) -> str:
