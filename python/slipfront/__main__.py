@@ -36,7 +36,6 @@ def end_now(*_):
 
 
 def undo_unfinished():
-    """Removes files that are only written in part."""
     from ._files import UNFINISHED
 
     for undo in list(UNFINISHED):
@@ -98,7 +97,6 @@ def _run(name, argv):
 
 
 def _code_of(error, name, numerics_error):
-    """Prints an error as one line, and returns its exit code."""
     try:
         raise error
     except (numerics_error, MemoryError) as error:

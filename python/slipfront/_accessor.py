@@ -151,7 +151,6 @@ def in_model(data):
 
 
 def register():
-    """Registers the accessor with xarray, if that is installed."""
     try:
         import xarray
     except ImportError:

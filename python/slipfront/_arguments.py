@@ -2,11 +2,15 @@
 
 import argparse
 import os
+import pathlib
 import sys
 import textwrap
+import tomllib
 
 from . import _table
 from ._slipfront import printable, require_other_file, sensible_threads
+
+COMMANDS = pathlib.Path(__file__).with_name("commands.toml")
 
 
 class Help(argparse.HelpFormatter):
@@ -22,11 +26,13 @@ class Help(argparse.HelpFormatter):
 
 
 class Arguments(argparse.ArgumentParser):
-    """A parser with the options of every subcommand. Its errors are one line: ValueError."""
+    """The parser of a command, by commands.toml. Its errors are one line: ValueError."""
 
-    def __init__(self, name, description, examples):
-        super().__init__(prog=f"slipfront {name}", description=description, allow_abbrev=False,
-                         epilog="\n".join(["Examples:", *examples]), formatter_class=Help)
+    def __init__(self, name):
+        about = tomllib.loads(COMMANDS.read_text(encoding="utf-8"))[name]
+        super().__init__(prog=f"slipfront {name}", description=about["description"],
+                         epilog="\n".join(["Examples:", *about["examples"]]),
+                         formatter_class=Help, allow_abbrev=False)
         self.add_argument("--json", action="store_true",
                           help="one JSON object on stdout, nothing else")
         self.add_argument("--quiet", action="store_true", help="no notes, no progress")
@@ -35,6 +41,20 @@ class Arguments(argparse.ArgumentParser):
         self.add_argument("--threads", type=threads, default=len(os.sched_getaffinity(0)),
                           metavar="N",
                           help="threads; results do not depend on it (default: all cores)")
+        for flags, option in about["option"].items():
+            if flags == "--si --dimensionless":
+                self.add_units(**option)
+                continue
+            if "type" in option:
+                option["type"] = TYPES[option["type"]]
+            self.add_argument(*flags.split(), **option)
+
+    def add_units(self, default="default if the scenario has values with units outside of "
+                  "[medium]"):
+        units = self.add_mutually_exclusive_group()
+        units.add_argument("--si", action="store_true", help=f"results in SI units ({default})")
+        units.add_argument("--dimensionless", action="store_true",
+                           help="results in the units of the model (default otherwise)")
 
     def parse_args(self, args=None, namespace=None):
         """Parses the words. Refuses an output that another word but --resume names."""
@@ -53,35 +73,18 @@ class Arguments(argparse.ArgumentParser):
         raise ValueError(f"{message}; see {self.prog} --help")
 
 
-def add_columns(parser):
-    """Adds --columns."""
-    parser.add_argument("--columns", metavar="MAP.toml",
-                        help="TOML file that states what the columns of a table mean, as for "
-                        "slipfront event; slipfront columns makes one")
-
-
-def add_units(parser, default="default if the scenario has values with units outside of [medium]"):
-    """Adds --si and --dimensionless."""
-    units = parser.add_mutually_exclusive_group()
-    units.add_argument("--si", action="store_true", help=f"results in SI units ({default})")
-    units.add_argument("--dimensionless", action="store_true",
-                       help="results in the units of the model (default otherwise)")
-
-
 def chosen_units(options):
     """Returns whether results are in SI units: True, False, or None for the default."""
     return options.si if options.si or options.dimensionless else None
 
 
 def file_name(text):
-    """The name of a file or folder to write."""
     if not text:
         raise argparse.ArgumentTypeError("the file name is empty")
     return text
 
 
 def netcdf_name(text):
-    """The name of a NetCDF file."""
     if not file_name(text).endswith(".nc"):
         raise argparse.ArgumentTypeError(f"{text}: unsupported file type; allowed: a name that "
                                          "ends in .nc")
@@ -94,10 +97,24 @@ def put(text):
 
 
 def threads(text):
-    """A number of threads."""
     if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 4096:
         raise argparse.ArgumentTypeError(f"'{text}' is no number of threads; allowed: 1 to 4096")
     return sensible_threads(int(text))
+
+
+def whole(text):
+    if not text.isascii() or not text.isdigit():
+        raise argparse.ArgumentTypeError(f"'{text}' is no whole number; "
+                                         "allowed: digits only, such as 1000")
+    return int(text)
+
+
+def names(text):
+    return text.split(",")
+
+
+TYPES = {function.__name__: function
+         for function in (file_name, float, int, names, netcdf_name, whole)}
 
 
 def progress(options, text):

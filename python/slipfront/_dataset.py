@@ -17,7 +17,6 @@ QUANTILE = {"quantile": ("quantile", [0.05, 0.5, 0.95], about("share of the valu
 
 
 def texts(dims, values, long_name):
-    """Returns a variable of texts."""
     return dims, np.array(values, dtype=object), {"long_name": long_name}
 
 
@@ -31,7 +30,6 @@ def attributes(described):
 
 
 def dataset(variables, coordinates=None, attrs=None):
-    """Returns the xarray.Dataset of {name: (dimensions, values, attributes)}."""
     return import_optional("xarray").Dataset(variables, coordinates, attrs)
 
 

@@ -74,7 +74,6 @@ def _events(run, threshold):
 
 
 def _fronts_of(event, x, tolerance):
-    """Yields the fronts of an event."""
     times = event.arrival
     reached = times[np.isfinite(times)]
     if not reached.size:
@@ -159,7 +158,6 @@ ABOUT = {
 
 
 def _variables(fronts, x, smooth, factor, limits):
-    """Returns the variables of the fronts as a whole, and along their paths."""
     rows = [_row(front, x) for front in fronts]
     arrival, velocity, ratio = np.full((3, len(fronts), x.size), math.nan)
     for i, front in enumerate(fronts):

@@ -14,7 +14,6 @@ class Plan(dict):
 
 
 def _text(key, value):
-    """Returns a value as text. Sizes are in the largest unit of which there is at least one."""
     if key.endswith("_bytes"):
         size, unit = next(((value / 10**power, unit)
                            for power, unit in ((9, "GB"), (6, "MB"), (3, "kB"))

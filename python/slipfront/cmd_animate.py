@@ -4,7 +4,7 @@ import json
 import pathlib
 import tomllib
 
-from ._arguments import Arguments, add_units, chosen_units, file_name, progress, put
+from ._arguments import Arguments, chosen_units, progress, put
 from ._optional import import_optional
 
 FRAMES = 75
@@ -69,7 +69,6 @@ def content_to_show(source, si=None, direct=False):
 
 
 def is_plane(shown):
-    """Whether a Dataset is a rupture on a plane."""
     return ({"slip_velocity", "moment_rate"} <= set(shown.variables)
             and shown["slip_velocity"].dims == ("time", "y", "x"))
 
@@ -111,32 +110,8 @@ def si_units(options):
                         options.asperity_spacing)
 
 
-def arguments(argv):
-    """Returns the options of the command line."""
-    parser = Arguments("animate", "Draws slip pulses and ruptures on a plane as moving pictures, "
-                       "with the dislocations that carry them.",
-                       ["slipfront animate cases/step.toml -o step.gif",
-                        "slipfront animate cases/step.toml cases/step-viscous.toml -o both.webp",
-                        "slipfront animate cases/plane-barrier.toml --direct -o barrier.gif"])
-    parser.add_argument("sources", metavar="FILE", nargs="+", help="NetCDF of pulse, chain or "
-                        "plane (a frame for each output time), or a scenario (TOML) or "
-                        "finite-fault model (.fsp) to run; several are drawn side by side")
-    parser.add_argument("--direct", action="store_true",
-                        help="follow every dislocation line of scenarios on a plane, and draw it")
-    parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name, required=True,
-                        help="its ending is the format: gif, webp, mp4")
-    parser.add_argument("--contact-ratio", metavar="A", type=float,
-                        help="contact ratio; adds scales in SI units to the dimensionless ones")
-    parser.add_argument("--asperity-spacing", metavar="METRES", type=float,
-                        help="asperity spacing b in m, for the scales in SI units; the rock is "
-                        "that of the paper: P waves of 6 km/s, Poisson's ratio 0.3, 30 GPa")
-    add_units(parser, "default if the file or the scenario is in SI units")
-    return parser.parse_args(argv)
-
-
 def main(argv) -> int:
-    """Writes the animation and returns the exit code."""
-    options = arguments(argv)
+    options = Arguments("animate").parse_args(argv)
     for module in ("xarray", "matplotlib", "PIL"):
         import_optional(module)
     from .plots import movie

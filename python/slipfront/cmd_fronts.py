@@ -4,7 +4,7 @@ import csv
 import json
 import sys
 
-from ._arguments import Arguments, add_columns, add_units, chosen_units, netcdf_name, put
+from ._arguments import Arguments, chosen_units, put
 from ._table import table
 
 #: Titles of the table for the terminal, the variable of each, and its name for the unit.
@@ -15,33 +15,7 @@ COLUMNS = (("event", "front_event"), ("begin", "front_begin"), ("end", "front_en
 
 
 def arguments(argv):
-    """Returns the options of the command line."""
-    parser = Arguments("fronts", "Finds the fronts of a run, as slipfront.fronts does in Python. "
-                       "RUN.nc is a loaded chain with output.fronts, or a pulse or a chain without "
-                       "[loading] and with many output times.",
-                       ["slipfront pulse cases/step.toml --set output.every=0.2 -o step.nc",
-                        "slipfront fronts step.nc", "slipfront chain cases/precursors.toml -o "
-                        "block.nc", "slipfront fronts block.nc -o fronts.nc",
-                        "slipfront fronts block.nc --csv > fronts.csv", "slipfront plot fronts.nc"])
-    parser.add_argument("run", metavar="RUN.nc", help="file of a chain or a pulse")
-    parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name,
-                        help="NetCDF file to write; slipfront plot draws it")
-    parser.add_argument("--threshold", metavar="SHARE", type=float,
-                        help="slip velocity at the front over the largest of the run, for runs "
-                        "that recorded no arrivals (default: 0.001)")
-    parser.add_argument("--slow", metavar="SHARE", type=float, default=0.1, help="a front below "
-                        "this share of the speed of Rayleigh waves is slow (default: 0.1)")
-    add_units(parser, "default if the run is in SI units")
-    parser.add_argument("--csv", action="store_true", help="the fronts with a velocity as CSV in "
-                        "SI units, which slipfront laboratory reads")
-    options = parser.parse_args(argv)
-    if (options.run is None) == (options.arrivals is None):
-        raise ValueError("RUN.nc: either a run or a table of arrivals is needed; allowed: RUN.nc, or --arrivals TABLE")
-    if options.columns and not options.arrivals:
-        raise ValueError("--columns: not for a run; allowed: with --arrivals")
-    for option in ("output", "threshold", "dimensionless"):
-        if options.arrivals and getattr(options, option):
-            raise ValueError(f"--{option}: not allowed with --arrivals; allowed: --csv or --json")
+    options = Arguments("fronts").parse_args(argv)
     if options.csv and (options.json or options.output):
         raise ValueError("--csv: not allowed with --json or -o")
     return options
@@ -53,7 +27,6 @@ def known(value):
 
 
 def as_json(data, file):
-    """Returns the results as a dict: a dict for each front and for each event."""
     def rows(dimension):
         found: list[dict] = [{} for _ in range(data.sizes[dimension])]
         for name, variable in data.data_vars.items():
@@ -75,7 +48,6 @@ def cell(value):
 
 
 def rows(data):
-    """Returns the table of fronts, below the titles and the units."""
     cells = []
     for title, name in COLUMNS:
         attributes = data[name].attrs
@@ -105,7 +77,6 @@ def write_csv(data, stream):
 
 
 def summary(data):
-    """Yields the lines below the table."""
     counts = {kind: int((data["front_kind"] == kind).sum())
               for kind in dict.fromkeys(data["front_kind"].values.tolist())}
     yield f"fronts    {data.sizes['front']}: " + ", ".join(f"{count} {kind}"
@@ -140,7 +111,6 @@ def report_arrivals(options):
 
 
 def main(argv) -> int:
-    """Runs the command and returns the exit code."""
     options = arguments(argv)
     if options.arrivals:
         report_arrivals(options)

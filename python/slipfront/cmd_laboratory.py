@@ -1,10 +1,9 @@
 """The command slipfront laboratory: hardness over modulus from fronts."""
 
-import argparse
 import json
 import sys
 
-from ._arguments import Arguments, add_columns, file_name, put
+from ._arguments import Arguments, put
 from ._messages import DONE, INPUT, complain
 from ._shown import shown
 from ._table import table
@@ -18,14 +17,6 @@ COLUMNS = (("tau / sigma_N", "stress_ratio"), ("V", "front_velocity"),
 WIDEST = 40
 
 
-def whole(text):
-    """Returns a whole number of an option."""
-    if not text.isascii() or not text.isdigit():
-        raise argparse.ArgumentTypeError(f"'{text}' is no whole number; allowed: digits only, such "
-                                         "as 1000")
-    return int(text)
-
-
 def interval(text):
     """Returns two numbers of an option LOW:HIGH."""
     low, colon, high = text.partition(":")
@@ -36,47 +27,7 @@ def interval(text):
 
 
 def arguments(argv):
-    """Returns the options of the command line."""
-    parser = Arguments(
-        "laboratory", "Computes the penetration hardness over the shear modulus from the "
-        "velocities of fronts, as slipfront.laboratory does in Python. TABLE has the columns tau, "
-        "normal_stress, front_velocity and, if known, stress_drop (or shear_stress_after) and "
-        "name, with units in the titles or cells. A row that cannot be read is named and left out, "
-        "and the exit code is 2.",
-        ["slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 "
-         "--s-wave-speed \"1300 m/s\" -o fronts.nc",
-         "slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 "
-         "--shear-modulus \"2 GPa\" --density \"1180 kg/m3\" --json"])
-    parser.add_argument("table", metavar="TABLE", help="table of fronts, CSV")
-    parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name,
-                        help="NetCDF file to write; slipfront plot draws it")
-    for name, example in (("--poisson-ratio", "0.35"), ("--shear-modulus", "2 GPa"),
-                          ("--density", "1180 kg/m3"), ("--p-wave-speed", "2700 m/s"),
-                          ("--s-wave-speed", "1300 m/s")):
-        parser.add_argument(name, metavar="VALUE",
-                            help=f"constant of the material, such as \"{example}\"")
-    parser.add_argument("--normal-stress", metavar="VALUE", help="normal stress of fronts for "
-                        "which the table has none, such as \"2 MPa\"")
-    add_columns(parser)
-    parser.add_argument("--prior", metavar="LOW:HIGH", default="0.001:10", help="range of the "
-                        "hardness over modulus, uniform in its logarithm (default: 0.001:10)")
-    parser.add_argument("--scatter-prior", metavar="LOW:HIGH", default="0.001:1",
-                        help="range of the scatter from front to front, uniform in its logarithm "
-                        "(default: 0.001:1)")
-    parser.add_argument("--draws", metavar="N", type=whole, default=1000,
-                        help="draws from the posterior in the file (default: 1000)")
-    parser.add_argument("--seed", metavar="N", type=whole, default=1,
-                        help="seed of the draws (default: 1)")
-    parser.add_argument("--strict", action="store_true",
-                        help="refuse the table if a row cannot be read")
-    parser.add_argument("--si", action="store_true",
-                        help="velocities in m/s and the hardness in Pa")
-    options = parser.parse_args(argv)
-    ending = ".csv" if options.events else ".nc"
-    if options.output and not options.output.endswith(ending):
-        raise ValueError(f"-o {options.output}: unsupported file type; allowed: a name that ends in {ending}")
-    if not options.events and (options.load_point or options.least_drop):
-        raise ValueError(f"{'--load-point' if options.load_point else '--least-drop'}: not without --events; allowed: with the record of an experiment")
+    options = Arguments("laboratory").parse_args(argv)
     for option in ("prior", "scatter_prior"):
         try:
             setattr(options, option, interval(getattr(options, option)))
@@ -93,7 +44,6 @@ def known(value):
 
 
 def lines(data, name):
-    """Returns the lines of an attribute of the Dataset."""
     return [line for line in data.attrs[name].split("\n") if line]
 
 
@@ -102,7 +52,6 @@ def velocity_scale(data, si):
 
 
 def as_json(data, file, si):
-    """Returns the results as a dict: the scalars, and a dict for each front."""
     fronts: list[dict] = [{} for _ in range(data.sizes["front"])]
     found = {"file": file, **{name: data.attrs[name] for name in ("c_m_s", "fronts_left_out")}}
     for name, variable in data.data_vars.items():
@@ -125,7 +74,6 @@ def with_interval(data, name, scale=1.0):
 
 
 def summary(data, si):
-    """Yields the lines of the result."""
     yield f"hardness over modulus  {with_interval(data, 'hardness_over_modulus')}"
     if "hardness" in data:
         yield (f"hardness               {with_interval(data, 'hardness', 1 if si else 1e-9)} "
@@ -138,7 +86,6 @@ def summary(data, si):
 
 
 def rows(data, si):
-    """Returns the table of fronts, below the title and the units."""
     unit = "m/s" if si else "c"
     cells = [["front", "", *(shown(name, WIDEST) for name in data["name"].values)]]
     for title, name in COLUMNS:
@@ -194,7 +141,6 @@ def report_events(options):
 
 
 def main(argv) -> int:
-    """Runs the command and returns the exit code."""
     options = arguments(argv)
     if options.events:
         report_events(options)

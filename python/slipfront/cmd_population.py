@@ -3,7 +3,7 @@
 import json
 import warnings
 
-from ._arguments import Arguments, add_columns, netcdf_name, progress, put
+from ._arguments import Arguments, progress, put
 from ._population.priors import NAMES, PARAMETERS
 from ._table import table
 
@@ -11,51 +11,7 @@ from ._table import table
 CONVERGED = 1.05
 
 
-def arguments(argv):
-    """Returns the options of the command line."""
-    parser = Arguments("population", "Infers what the events of a catalogue have in common, as "
-                       "slipfront.population does in Python: stress, effective normal stress and "
-                       "friction, and how much they scatter. Each event needs a duration, a "
-                       "rupture velocity or a length, and a slip or a moment with a width. "
-                       "docs/population.md has the model and its priors.",
-                       ["slipfront population CATALOGUE.csv -o pop.nc", "slipfront population "
-                        "--kind earthquake", "slipfront population CATALOGUE.csv --smallest-moment "
-                        "1e18 --prior friction_median=1e-3,20 --json"])
-    parser.add_argument("catalogue", metavar="CATALOGUE", nargs="*", help="files of events as for "
-                        "slipfront event (default: the catalogue that comes with slipfront)")
-    parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name,
-                        help="NetCDF file to write, with all draws")
-    parser.add_argument("--kind", metavar="KIND",
-                        help="use only events of this kind, such as earthquake")
-    parser.add_argument("--prior", metavar="NAME=MEDIAN,FACTOR", action="append", default=[],
-                        help="lognormal prior of a parameter, one standard deviation a factor; "
-                        "repeatable")
-    parser.add_argument("--hardness", metavar="STRESS", default="10 GPa",
-                        help="penetration hardness: normal stress is contact ratio times hardness "
-                        "(default: 10 GPa)")
-    parser.add_argument("--smallest-slip", metavar="LENGTH", help="detection limit: the catalogue "
-                        "lacks all events with less slip, such as '1 mm'")
-    parser.add_argument("--smallest-moment", metavar="MOMENT", help="detection limit: the "
-                        "catalogue lacks all events with a smaller moment, in N m")
-    parser.add_argument("--velocity-error", metavar="FACTOR", type=float, default=1.2,
-                        help="one standard deviation of velocities without an error (default: 1.2)")
-    parser.add_argument("--size-error", metavar="FACTOR", type=float, default=1.5, help="one "
-                        "standard deviation of slips and moments without an error (default: 1.5)")
-    for name, example in (("p-wave-speed", "6 km/s"), ("poisson-ratio", "0.3"),
-                          ("shear-modulus", "30 GPa")):
-        parser.add_argument(f"--{name}", metavar="VALUE", help="constant of the rock for events "
-                            f"that give none (default: {example})")
-    add_columns(parser)
-    parser.add_argument("--steps", metavar="N", type=int, default=400,
-                        help="steps of each of the 40 walkers (default: 400)")
-    parser.add_argument("--seed", metavar="N", type=int, default=1,
-                        help="seed of the draws (default: 1)")
-    options = parser.parse_args(argv)
-    return options
-
-
 def prior(texts):
-    """Returns {name: (median, factor)} of the options --prior."""
     found = {}
     for text in texts:
         name, _, pair = text.partition("=")
@@ -69,7 +25,6 @@ def prior(texts):
 
 
 def summary(data):
-    """Returns {parameter: {quantile: value}}."""
     return {name: dict(zip(("5 %", "50 %", "95 %"),
                            data[name].quantile([0.05, 0.5, 0.95]).values.tolist()))
             for name in NAMES}
@@ -99,10 +54,9 @@ def notes(data):
 
 
 def main(argv) -> int:
-    """Runs the model and returns the exit code."""
     from . import population
 
-    options = arguments(argv)
+    options = Arguments("population").parse_args(argv)
     chosen = prior(options.prior)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -8,7 +8,7 @@ import textwrap
 import time
 import warnings
 
-from ._arguments import Arguments, file_name, progress, put
+from ._arguments import Arguments, progress, put
 from ._optional import import_optional
 from ._table import width
 
@@ -35,7 +35,6 @@ def table(rows) -> str:
 
 
 def summary(tables) -> str:
-    """How many rows have which verdict."""
     def counted(name):
         counts = collections.Counter(row["verdict"] for row in tables[name]).most_common()
         return f"{name}: {', '.join(f'{count} {verdict}' for verdict, count in counts)}"
@@ -44,14 +43,7 @@ def summary(tables) -> str:
 
 
 def main(argv) -> int:
-    """Writes the folder, prints the table, and returns the exit code."""
-    parser = Arguments("reproduce", "Every figure, number and statement of the paper, with the "
-                       "data of each, and report.html, a page that needs nothing else.",
-                       ["slipfront reproduce", "slipfront reproduce -o paper --threads 4"])
-    parser.add_argument("-o", "--output", metavar="DIR", type=file_name, default="reproduction",
-                        help="folder to write: a new one, or an earlier reproduction, which it "
-                        "replaces (default: reproduction)")
-    options = parser.parse_args(argv)
+    options = Arguments("reproduce").parse_args(argv)
     for module in ("numpy", "xarray", "matplotlib", "netCDF4", "pandas"):
         import_optional(module)
     from .reproduce import outputs, pipeline

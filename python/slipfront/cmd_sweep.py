@@ -8,7 +8,7 @@ import sys
 import warnings
 
 from . import _slipfront
-from ._arguments import Arguments, add_units, chosen_units, netcdf_name, put
+from ._arguments import Arguments, chosen_units, put
 from ._grid import values_of
 from ._messages import DONE, NUMERICS, Interruption, complain
 from ._shown import shown
@@ -23,37 +23,7 @@ WIDEST = 40
 
 
 def arguments(argv):
-    """Returns the options of the command line."""
-    parser = Arguments(
-        "sweep", "Runs a scenario at every point of a grid of settings, as slipfront.sweep does in "
-        "Python. VALUES are a list such as 0.1,0.5,2, a range first:last:count such as 0:2:9, or a "
-        "range first:last:count:log with equal ratios such as 0.1:10:5:log. A list may contain "
-        "ranges. A key with a unit takes it after the value, as in 1:3:5 MPa. `slipfront keys` "
-        "lists the keys. If a point fails, its row names the reason, and the exit code is 4.",
-        ["slipfront sweep cases/step-viscous.toml --vary friction.coefficient=0:2:9 -o sweep.nc",
-         "slipfront sweep cases/step.toml --vary initial.stress_left=0.1:1:4:log --csv",
-         "slipfront sweep cases/step-viscous.toml --vary friction.coefficient=0.5,1 --vary "
-         "friction.closure=paper,consistent --json"])
-    parser.add_argument("scenario", metavar="SCENARIO", help="scenario file, TOML")
-    parser.add_argument("--vary", metavar="KEY=VALUES", action="append", required=True,
-                        help="key of the scenario and its values; repeatable: the sweep runs all "
-                        "combinations")
-    parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name, help="NetCDF file to "
-                        "write at the end; until then OUT.nc.part has the finished points")
-    parser.add_argument("--resume", metavar="OUT.nc", type=netcdf_name,
-                        help="resume the interrupted sweep of this file, and write to it")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="extend", nargs="+", default=[],
-                        help="table.key=value, which replaces that of the scenario; repeatable")
-    parser.add_argument("--command", choices=("pulse", "chain"), default="pulse",
-                        help="what to run: pulse (default) or chain")
-    parser.add_argument("--variables", metavar="NAMES", type=lambda text: text.split(","),
-                        help="numbers of each run to keep, with commas between them (default: all "
-                        "that pulse --json prints)")
-    parser.add_argument("--cluster", metavar="ADDRESS",
-                        help="Dask scheduler whose workers run the points, such as tcp://HOST:8786")
-    parser.add_argument("--csv", action="store_true", help="one CSV row each, full precision")
-    add_units(parser)
-    options = parser.parse_args(argv)
+    options = Arguments("sweep").parse_args(argv)
     if options.json and options.csv:
         raise ValueError("--json and --csv: both are given; allowed: one of them")
     return options
@@ -204,7 +174,6 @@ def report(data, options):
 
 
 def main(argv) -> int:
-    """Runs the sweep and returns the exit code."""
     options = arguments(argv)
     axes = axes_of(options.vary)
     file = options.resume or options.output

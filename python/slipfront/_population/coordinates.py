@@ -28,7 +28,6 @@ class Coordinates:
         return np.clip(kappa + self.place, forward.LOG_DAMPING[0], forward.LOG_DAMPING[-1])
 
     def _front(self, log_stress, damping):
-        """Returns ln(V / c) and its slope; both are those of the coordinates."""
         return (self.front(log_stress, damping)[:, 0] + LEAST_SLOPE * log_stress,
                 np.maximum(self.front(log_stress, damping, dx=1)[:, 0], 0) + LEAST_SLOPE)
 

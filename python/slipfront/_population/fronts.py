@@ -54,8 +54,7 @@ def _check_stresses(front, file):
                           f"it is {ratio:.3g} of the normal stress", "1e-9 to 1e9")
 
 
-def text_of(table):
-    """Returns (text, name) of a table as the user gives it."""
+def _text_of(table):
     text, name, is_path = source(table, "table", "{'tau [MPa]': [1.2, 1.4], ...}")
     try:
         return (_slipfront.read_text(name) if is_path else text), name

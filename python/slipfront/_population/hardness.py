@@ -37,7 +37,6 @@ def closed_form(ln_stress):
 
 
 def ln_stress_of(velocity):
-    """Returns ln Sigma- of one velocity V / c, 0 < V / c < 1."""
     return math.log(_slipfront.relations("rupture_velocity", np.array([velocity]), 1)[0][0])
 
 
@@ -160,7 +159,6 @@ class Evidence:
         return top + np.log(np.exp(exponents - top[:, None]).sum(axis=1)) - 0.5 * math.log(variance)
 
     def quantiles(self, shares):
-        """Quantiles of y by this front."""
         points, masses = self.levels[0][:2]
         return np.interp(shares, np.cumsum(masses) - masses / 2,
                          points) if points.size > 1 else np.full(len(shares), points[0])
@@ -239,7 +237,6 @@ class Posterior:
         return float(np.interp(ln_scatter, self.ln_scatter, self.scatter_shares))
 
     def quantiles(self, shares):
-        """Returns quantiles of ln h, and of ln s."""
         y = np.unique(self.y)
         below = sum(weight * np.interp(y, grid, rows)
                     for weight, grid, rows in zip(self.weights, self.y, self.shares))

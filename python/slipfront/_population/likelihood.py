@@ -155,7 +155,6 @@ class Likelihood:
         return np.clip(rows, 0, self.rows - 1), kappa, weight
 
     def nodes(self, values, chosen, resolution=RESOLUTION):
-        """Returns the Nodes of the chosen events for these parameters."""
         _, _, normal, normal_spread, friction, friction_spread, _ = values
         variance = normal_spread**2 + friction_spread**2
         scatter = (normal_spread * friction_spread) ** 2 / variance

@@ -100,7 +100,6 @@ def _proposal(jumps, x, i, generator):
 
 
 def _sweep(target, power, particles, jumps, generator):
-    """Moves each particle once."""
     y, prior, logs = particles
     for i in range(len(y)):
         new, factor = _proposal(jumps, y, i, generator)

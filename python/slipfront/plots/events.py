@@ -62,7 +62,6 @@ def panel(axes, events, name, kinds, scale=1.0):
 
 
 def arrows(axes, x, y, colour) -> None:
-    """An arrow up from each of a few lower bounds."""
     for place in zip(x, y):
         axes.annotate("", place, xytext=(0, 15), textcoords="offset points",
                       arrowprops={"arrowstyle": "<-", "color": colour, "linewidth": 0.7,
@@ -97,13 +96,11 @@ def contact_lines(axes, line, low, high):
 
 
 def known_of(events, name):
-    """Whether each event has this quantity."""
     return events[name].notnull().values if name in events else numpy.zeros(events["stress"].size,
                                                                             bool)
 
 
 def known(events, name) -> bool:
-    """Whether any event has this quantity."""
     return name in events and bool(events[name].notnull().any())
 
 

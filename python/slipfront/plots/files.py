@@ -30,7 +30,6 @@ def read(path, si=None) -> xarray.Dataset:
 
 
 def netcdf(path, si=None) -> xarray.Dataset:
-    """A NetCDF file, by slipfront or not."""
     try:
         data = read_netcdf(path, any_file=True, si=si)
         return data.slipfront.si() if si else data
@@ -39,7 +38,6 @@ def netcdf(path, si=None) -> xarray.Dataset:
 
 
 def rows(path) -> xarray.Dataset:
-    """A CSV file with a header, as a Dataset over `row`."""
     pandas = import_optional("pandas")
     try:
         table = pandas.read_csv(path)

@@ -33,7 +33,6 @@ def colours_of(data):
 
 
 def paths(axes, data, rows, colours) -> None:
-    """Draws position against the time since the event begins."""
     x, arrival = data["position"].values, data["arrival"].values
     largest = 0.0
     for row in rows:
@@ -86,7 +85,6 @@ def velocities(axes, data, rows) -> None:
 
 
 def theory(axes, data, across, by_ratio, speed) -> None:
-    """Draws the velocities of both edges without friction (Eqs. 8-10)."""
     at = numpy.linspace(0.9 * across.min(), 1.1 * across.max(), 100)
     unit = data.attrs["normal_stress_pa"] / data.attrs["tau_unit_pa"] if by_ratio else 1.0
     states = relations(stress=numpy.clip(at * unit, 0.005, None))
@@ -97,7 +95,6 @@ def theory(axes, data, across, by_ratio, speed) -> None:
 
 
 def lengths(axes, data, rows) -> None:
-    """Draws the length that slip reaches in each event against the load before it."""
     load, length, crosses = (data["event_load"].values[rows], data["event_length"].values[rows],
                              data["event_crosses"].values[rows] > 0)
     for chosen, (colour, name) in ((~crosses, INSIDE), (crosses, CROSSES)):

@@ -22,12 +22,10 @@ def force_of(run):
 
 
 def is_loaded(run) -> bool:
-    """Returns whether springs load the run."""
     return force_of(run) is not None or "event_onset" in run
 
 
 def count_of(run) -> int:
-    """Returns the number of slip events."""
     return run.sizes["event"] if "event_onset" in run else 0
 
 
@@ -103,7 +101,6 @@ def slip_rates(run) -> numpy.ndarray:
 
 
 def rate_label(run) -> str:
-    """Returns the label of the colour bar of slip_rates, in the unit of W."""
     return label(run["W"], "mean slip velocity |W|") if "W" in run else "mean slip velocity"
 
 
@@ -132,11 +129,9 @@ def draw_rates(figure, axes, across, up, rates, text, **bar_options) -> None:
 
 
 def say(axes, text) -> None:
-    """Writes a remark in the middle of a panel."""
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color="0.3")
 
 
 def edges_of(run) -> numpy.ndarray:
-    """Returns the edges of the cells in x."""
     bounds = run["x_bounds"].values
     return numpy.append(bounds[:, 0], bounds[-1, 1])

@@ -24,7 +24,6 @@ def _map(figure, axes, data, values, **options) -> None:
 
 
 def draw_spectrum(axes, rupture) -> None:
-    """Draws the amplitude spectrum of the moment rate, without the frequency 0."""
     frequency, amplitude = (rupture[name] for name in SPECTRUM)
     shown = (frequency.values > 0) & (amplitude.values > 0)
     axes.plot(frequency.values[shown], amplitude.values[shown])

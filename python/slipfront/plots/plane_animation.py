@@ -35,7 +35,6 @@ class Map:
         self.mark = curve.plot([], [], marker="o", color=colour, linestyle="none")[0]
 
     def show(self, row) -> None:
-        """Shows one output time."""
         time = float(self.rupture["time"][row])
         self.image.set_array(abs(self.rupture["slip_velocity"][row].values))
         self.mark.set_data([time], [numpy.interp(time, self.time, self.rate)])
@@ -86,7 +85,6 @@ class PlaneScene:
 
     @styled
     def show(self, row) -> numpy.ndarray:
-        """Draws one output time. Returns the picture as height x width x 3 bytes."""
         for part in self.maps:
             part.show(row)
         self.clock.set_text(f"t = {float(self.times[row]) / self.unit[0]:.3g} {self.unit[1]}")

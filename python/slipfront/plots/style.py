@@ -119,7 +119,6 @@ def prefix_axes(figure) -> None:
 
 
 def is_si(dataset) -> bool:
-    """Returns whether a Dataset of a run is in SI units."""
     return getattr(dataset, "attrs", {}).get("unit_system") == "SI"
 
 
@@ -216,7 +215,6 @@ def rest_of(variable) -> float:
 
 
 def quantity(variable, value, digits: int = 4) -> str:
-    """Returns a value of a DataArray with its unit, as text."""
     factor, name = (prefixed(unit(variable), abs(value)) if "unit_of_model" in variable.attrs
                     else (1.0, unit(variable)))
     return f"{value / factor:.{digits}g} {name}"

@@ -40,7 +40,6 @@ def spans_many(values) -> bool:
 
 
 def value_scale(values) -> dict:
-    """Returns the colours of a map of numbers."""
     known = values[numpy.isfinite(values)]
     return {"norm": LogNorm(known.min(), known.max())} if spans_many(values) else colours(values)
 

@@ -36,7 +36,6 @@ def draw_ratio(data, events) -> Figure:
 
 
 def ratio(values) -> Picture:
-    """Fig. 4."""
     velocity = xarray.DataArray(numpy.append(numpy.geomspace(1e-9, 0.9, 181), [0.95, 0.99, 0.999]),
                                 dims="rupture_velocity")
     found = slipfront.relations(rupture_velocity=velocity.values)
@@ -78,7 +77,6 @@ def draw_against_stress(data, name, text, read_offs) -> Figure:
 
 
 def over_stress(names):
-    """The closed form over the stresses of both panels."""
     stresses = numpy.unique(numpy.round(numpy.concatenate((numpy.linspace(0.3, 2, 171),
                                                            numpy.linspace(0.15, 0.3, 151))), 6))
     found = slipfront.relations(stress=stresses)
@@ -88,7 +86,6 @@ def over_stress(names):
 
 
 def rupture(values, given) -> Picture:
-    """Fig. 5."""
     data = over_stress(["rupture_velocity", "leading_velocity", "velocity_ratio"])
     read_offs, printed = {}, []
     for key, name in EVENTS.items():
@@ -104,7 +101,6 @@ def rupture(values, given) -> Picture:
 
 
 def slip(values, given) -> Picture:
-    """Fig. 6."""
     data = over_stress(["slip_velocity", "stress_at_origin"])
     read_offs, printed = {}, []
     for key, name in EVENTS.items():

@@ -63,10 +63,8 @@ def rules() -> dict:
 
 
 def apply(rule, values) -> float:
-    """A rule on values by key."""
     return rule.value(*(values[name] for name in rule.names))
 
 
 def quoted(rule, texts) -> str:
-    """The printed numbers that a rule takes, for a remark."""
     return ", ".join(texts[name] for name in rule.names)

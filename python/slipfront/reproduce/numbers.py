@@ -37,7 +37,6 @@ def taken(paper) -> dict:
 
 
 def event(name, key) -> float:
-    """Returns a quantity of the event in a case file."""
     return float(slipfront.event(str(slipfront.cases / name))[key].values.ravel()[0])
 
 
@@ -90,7 +89,6 @@ def figure_8(factors, width) -> dict:
 
 
 def list_of(values) -> str:
-    """Returns several ratios as a text for a remark."""
     return ", ".join(f"{float(value):.3f}" for value in values)
 
 
@@ -165,11 +163,9 @@ def row_of(number, value, paper, facts) -> dict:
 
 
 def table(paper, values) -> list:
-    """Returns the rows of all numbers."""
     return [row_of(number, values[number["key"]], paper, values) for number in paper["number"]]
 
 
 def counts(rows) -> dict:
-    """Returns {verdict: number of rows}."""
     return {verdict: sum(row["verdict"] == verdict for row in rows)
             for verdict in (verdicts.SAME, verdicts.FOLLOWS, verdicts.READING, verdicts.WRONG)}

@@ -103,7 +103,6 @@ def write_picture(folder, picture) -> None:
 
 
 def write_rows(path, rows) -> None:
-    """Writes a table as CSV."""
     file = io.StringIO(newline="")
     writer = csv.DictWriter(file, rows[0].keys())
     writer.writeheader()

@@ -73,7 +73,6 @@ def draw_column(upper, lower, data, closure, factor):
 
 @styled
 def draw_scaled(data, factor) -> Figure:
-    """Slip velocity brought to one peak: a column a closure."""
     figure = Figure(figsize=(7.2, 5.6))
     panels = figure.subplots(2, 2, sharex=True, sharey="row")
     for column, closure in enumerate(CLOSURES):
@@ -84,7 +83,6 @@ def draw_scaled(data, factor) -> Figure:
 
 
 def scaled(runs, width, ratio_width) -> Picture:
-    """Fig. 8."""
     data = profiles(runs, "fig-08.toml", width)[["W"]].assign_attrs(width=width, scale=SCALE)
     peak = data["W"].max("x")
     data["factor"] = (peak.isel(friction_coefficient=0)
@@ -99,7 +97,6 @@ def scaled(runs, width, ratio_width) -> Picture:
 
 @styled
 def draw_stress(data) -> Figure:
-    """Stress for the three friction coefficients: a column a closure."""
     figure = Figure(figsize=(7.2, 3.4))
     for axes, closure in zip(figure.subplots(1, 2, sharey=True), CLOSURES):
         axes.plot(SPAN, [0.855, 0.855], color="0.75", linestyle="-", linewidth=0.8, zorder=0)
@@ -116,7 +113,6 @@ def draw_stress(data) -> Figure:
 
 
 def stress(runs) -> Picture:
-    """Fig. 9."""
     width = 1.0
     data = profiles(runs, "fig-09.toml", width)[["Sigma"]].assign_attrs(width=width, scale=SCALE)
     slope = abs(data["Sigma"].differentiate("x")).sel(x=slice(-6, 2)).max("x")

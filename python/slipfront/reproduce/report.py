@@ -15,7 +15,6 @@ SECTIONS = (("result", "The main result"), ("symbols", "Symbols and words"), ("n
 
 
 def contents(pictures) -> str:
-    """Returns the table of contents, which lists every figure."""
     inner = "".join(f'<li><a href="#{picture.name}">{html.escape(heading_of(picture))}</a></li>'
                     for picture in pictures)
     items = "".join(
@@ -40,7 +39,6 @@ def main_result(levels) -> str:
 
 
 def glossary() -> str:
-    """Returns the glossary, from glossary.toml."""
     return "<dl>" + "".join(f"<dt>{html.escape(word['name'])}</dt><dd>"
                             f"{html.escape(word['meaning'])}</dd>\n"
                             for word in TEXTS["word"]) + "</dl>\n"
@@ -66,7 +64,6 @@ def numbers_section(rows) -> str:
 
 
 def statements_section(rows) -> str:
-    """Returns the section on the paper's statements. The first column is the verdict."""
     cells = [(row["verdict"], row["statement"], row["where"], (row["found"], row["command"]),
               row["range"]) for row in rows]
     return table(("verdict", "statement of the paper", "where", "found here", "range"), cells,
@@ -74,7 +71,6 @@ def statements_section(rows) -> str:
 
 
 def formulas_section(rows) -> str:
-    """Returns the section on misprinted formulas, with a check of each."""
     heading = ("where", "printed", "corrected", "check", "from the printed formula",
                "from the corrected formula")
     return table(heading, [(row["where"], row["printed"], row["mended"], row["check"],

@@ -75,7 +75,6 @@ def in_space(axes, figure) -> list:
 
 
 def plain(text) -> str:
-    """Returns a label without the markup of matplotlib's mathematics."""
     return re.sub(r"[${}\\]", "", str(text)).replace("\n", " ")
 
 

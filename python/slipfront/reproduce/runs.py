@@ -13,12 +13,10 @@ SCALE = 400
 
 
 def frozen(case, changes):
-    """Returns the key of a run."""
     return case, tuple(sorted(changes.items()))
 
 
 def pulse_of(case, changes):
-    """Runs the pulse solver."""
     return slipfront.pulse(str(CASES / case), set=changes, errors=False)
 
 

@@ -88,7 +88,6 @@ def draw_contact(chain) -> Figure:
 
 
 def contact() -> Picture:
-    """Fig. 1."""
     contact_ratio, sites = 0.4, 41
     u = static_chain(contact_ratio, sites)
     place = numpy.arange(sites) - (sites - 1) / 2
@@ -162,7 +161,6 @@ def sliding() -> Picture:
 
 @styled
 def draw_initial(data) -> Figure:
-    """The step and the smooth profile."""
     figure = Figure(figsize=(7.2, 2.8))
     axes = figure.subplots()
     axes.plot(data["x"], data["step"], color="C0", linestyle="-", drawstyle="steps-mid",
@@ -179,7 +177,6 @@ def draw_initial(data) -> Figure:
 
 
 def initial(runs) -> Picture:
-    """Fig. 3."""
     start = runs.pulse("fig-08.toml").isel(time=0)
     x = numpy.linspace(-5, 5, 1001)
     smooth = numpy.interp(x, start["x"], start["Sigma"])

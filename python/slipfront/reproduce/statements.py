@@ -130,7 +130,6 @@ def larger() -> dict:
 
 
 def dislocations() -> dict:
-    """Tests U from edge to edge."""
     x = numpy.linspace(-1, 1, 20001)
     data = slipfront.train.profile(1.03, x)
     U = data["U"].values[(x > data.attrs["left_edge"]) & (x < data.attrs["right_edge"])]
@@ -230,7 +229,6 @@ def averages(steps) -> dict:
 
 
 def uniform() -> dict:
-    """Tests the uniform train."""
     phi, psi, step = math.atanh(0.3), float(slipfront.train.psi_at_rest(0.855)), 1e-3
     x = numpy.linspace(0, 10, 1001)
     u = {(i, j): slipfront.train.fields(phi, psi, x + i * step - 0.3 * j * step)["u"].values
@@ -258,7 +256,6 @@ def energy(contact_ratio, sites) -> float:
 
 
 def dislocation(given) -> dict:
-    """Tests a single dislocation."""
     sizes = [2 * math.pi / given[key]
              for key in ("parkfield_contact_ratio_0", "parkfield_contact_ratio_2.0",
                          "ets_contact_ratio")]
@@ -274,7 +271,6 @@ def dislocation(given) -> dict:
 
 
 def decades() -> dict:
-    """Tests seven orders of velocity for one of stress."""
     starts = (0.1, relation("stress", rupture_velocity=numbers.SLOWEST), 0.2117, 0.3)
     V, W = ([orders(key, stress) for stress in starts]
             for key in ("rupture_velocity", "slip_velocity"))
@@ -285,7 +281,6 @@ def decades() -> dict:
 
 
 def covers() -> dict:
-    """Tests the range of velocities in the conclusions."""
     c = numbers.event("parkfield-2004.toml", "c_m_s")
     slow = relation("slip_velocity", rupture_velocity=numbers.SLOWEST) * (c * 4e-5 / math.pi)
     fast = relation("rupture_velocity", slip_velocity=1 / (c * 0.0029 / math.pi))

@@ -38,7 +38,6 @@ def surfaces(runs, what, case, key, values, places, dimension) -> xarray.Dataset
 
 
 def draw_one(axes, W, top, title):
-    """Draws one surface."""
     x, t = numpy.meshgrid(W["x"].values, W["time"].values)
     axes.plot_surface(x, t, W.values, cmap="viridis", vmin=-0.25 * top, vmax=top,
                       rcount=W.sizes["time"], ccount=W.sizes["x"] // 2, linewidth=0.15,
@@ -82,12 +81,10 @@ def draw(rows, dimension, words, one_scale) -> Figure:
 
 
 def of_closures(data) -> dict:
-    """Returns the rows of a figure, one for each closure."""
     return {look.TITLES[closure]: data["W"].sel(closure=closure) for closure in CLOSURES}
 
 
 def with_friction(runs) -> Picture:
-    """Draws Fig. 7."""
     axis = xarray.DataArray([0.0], dims="friction_coefficient", name="friction_coefficient",
                             attrs=look.FRICTION)
     data = surfaces(runs, "Fig. 7", "fig-07.toml", "friction.coefficient", FRICTION, PLACES, axis)
@@ -110,7 +107,6 @@ def without_friction(runs, W) -> xarray.DataArray:
 
 
 def with_right_stress(runs) -> Picture:
-    """Draws Fig. 11."""
     axis = xarray.DataArray([0.0], dims="stress_right", name="stress_right",
                             attrs=look.STRESS_RIGHT)
     data = surfaces(runs, "Fig. 11", "fig-11.toml", "initial.stress_right", RIGHT, WIDER, axis)

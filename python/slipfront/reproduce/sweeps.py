@@ -81,7 +81,6 @@ def draw_ratios(data, smooth) -> Figure:
 
 
 def friction(data, ratio) -> Picture:
-    """Fig. 10. ratio: of ratios.py."""
     values = data["slip_velocity_ratio"].sel(closure="paper", stress=0.855)
     printed = [(f"ratio at C = {c:g}, Σ− = 0.855", f"{read:g}",
                 float(values.sel(friction_coefficient=c))) for c, read in zip(FRICTION, READ)]
@@ -146,7 +145,6 @@ def draw_drops(data) -> Figure:
 
 
 def against_drop(data) -> Picture:
-    """Fig. 12."""
     free = data["without_friction"].sel(stress=0.855)
     share = (data["slip_velocity_at_origin"].sel(stress=0.855)
              / data["slip_velocity_at_origin"].sel(stress=0.855, stress_drop=1.0))

@@ -63,6 +63,5 @@ def draw(table, printed, width) -> Figure:
 
 
 def pictured(table, printed, width) -> Picture:
-    """The figure that the paper does not have."""
     least = float(table["factor"].sel(closure="consistent", coefficient=min(printed)).min())
     return picture("width", draw(table, printed, width), table, width=width, least=least)
