@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from . import _units
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError
 
 

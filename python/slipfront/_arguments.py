@@ -113,8 +113,8 @@ def names(text):
     return text.split(",")
 
 
-TYPES = {function.__name__: function
-         for function in (file_name, float, int, names, netcdf_name, whole)}
+TYPES = {"file_name": file_name, "float": float, "int": int, "names": names,
+         "netcdf_name": netcdf_name, "whole": whole}
 
 
 def progress(options, text):

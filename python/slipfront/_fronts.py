@@ -11,7 +11,7 @@ from ._files import write_dataset
 from ._numbers import np
 from ._run import read
 from ._scenario import is_path, output_path
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError
 
 #: Poisson's ratio where [medium] gives none.
@@ -144,17 +144,16 @@ def _row(front, x):
 
 NUMBER = about("number of the slip event, from 1; 0 if the run has none")
 BEFORE = "ahead of the front, before the event"
-ABOUT = {
-    "event": NUMBER, "begin": about("position at which the front begins", "b / A"),
-    "end": about("position at which the front ends", "b / A"),
-    "onset": about("time at which the front begins", "b / (c A)"),
-    "duration": about("time from its begin to its end", "b / (c A)"),
-    "length": about("length that the front crosses", "b / A"),
-    "velocity": about("median of the velocity along the front", "c"),
-    "velocity_error": about("error of the median, if the arrivals come from outputs, which show a "
-                            "front to a cell", "c"),
-    "stress": about(f"median of the shear stress {BEFORE}", "mu A / pi"),
-    "traction": about(f"median of the force of friction and substrate {BEFORE}", TRACTION)}
+ABOUT = {"event": NUMBER, "begin": about("position at which the front begins", "b / A"),
+         "end": about("position at which the front ends", "b / A"),
+         "onset": about("time at which the front begins", "b / (c A)"),
+         "duration": about("time from its begin to its end", "b / (c A)"),
+         "length": about("length that the front crosses", "b / A"),
+         "velocity": about("median of the velocity along the front", "c"),
+         "velocity_error": about("error of the median, if the arrivals come from outputs, which "
+                                 "show a front to a cell", "c"),
+         "stress": about(f"median of the shear stress {BEFORE}", "mu A / pi"),
+         "traction": about(f"median of the force of friction and substrate {BEFORE}", TRACTION)}
 
 
 def _variables(fronts, x, smooth, factor, limits):
@@ -276,12 +275,11 @@ def fronts(run, *, threshold=None, slow=0.1, output=None, si=None):
     variables = {**_variables(found, x, smooth, factor, (slow, rayleigh)),
                  **_event_variables(events, x, unit_of_load)}
     known = {"normal_stress_pa": normal, "tau_unit_pa": unit, "c_m_s": constants[2]}
-    attributes = {
-        "slipfront_format": "fronts 1", "title": run.attrs.get("title", ""),
-        "scenario": run.attrs.get("scenario", ""), "rayleigh_speed": rayleigh, "slow_share": slow,
-        "tau": "traction" if smooth else "stress",
-        "references": _slipfront.reference_of("Eqs. 8-10"),
-        **{name: value for name, value in known.items() if value is not None}}
+    attributes = {"slipfront_format": "fronts 1", "title": run.attrs.get("title", ""),
+                  "scenario": run.attrs.get("scenario", ""), "rayleigh_speed": rayleigh,
+                  "slow_share": slow, "tau": "traction" if smooth else "stress",
+                  "references": _slipfront.reference_of("Eqs. 8-10"),
+                  **{name: value for name, value in known.items() if value is not None}}
     position = ("position", x, about("position along the interface", "b / A"))
     data = dataset(variables, {"position": position}, attributes)
     if in_si:

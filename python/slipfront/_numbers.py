@@ -4,7 +4,7 @@ import os
 
 from . import _slipfront
 from ._optional import import_optional
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError
 
 np = import_optional("numpy")

@@ -3,7 +3,7 @@
 import sys
 import time
 
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError
 
 

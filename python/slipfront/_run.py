@@ -1,6 +1,7 @@
 """The functions that run and check scenarios, and slipfront.open, which reads their files."""
 
 import contextlib
+import html
 import os
 import warnings
 
@@ -8,10 +9,9 @@ from . import _slipfront, _units
 from ._dataset import about, attributes, dataset
 from ._numbers import np, numbers, one_number, thread_count
 from ._optional import import_optional
-from ._plan import Plan
 from ._progress import showing
 from ._scenario import arguments, path
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import FileError, InputError
 
 nan = float("nan")
@@ -260,6 +260,29 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     data = data.assign_coords(name=("level", names, {"long_name": "level of theory"}), scale=scale,
                               quantity=quantities)
     return data.set_xindex("name")
+
+
+class Plan(dict):
+    """The plan of a run as a dict. A notebook shows it as a table."""
+
+    def _repr_html_(self):
+        rows = "".join(
+            f"<tr><th>{html.escape(str(key))}</th><td>{html.escape(_text(key, value))}</td></tr>"
+            for key, value in self.items())
+        return f"<table>{rows}</table>"
+
+
+def _text(key, value):
+    if key.endswith("_bytes"):
+        size, unit = next(((value / 10**power, unit)
+                           for power, unit in ((9, "GB"), (6, "MB"), (3, "kB"))
+                           if value >= 10**power), (value, "bytes"))
+        return f"{size:.3g} {unit}"
+    if isinstance(value, dict):
+        return ", ".join(f"{name} = {_text(name, one)}" for name, one in value.items()) or "none"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    return "none" if value is None else str(value)
 
 
 def check(scenario, *, set=None, command="pulse", scales=(), direct=False):

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 
 from ._numbers import np
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError, require_other_file
 
 

@@ -17,7 +17,7 @@ from ._numbers import np, thread_count
 from ._progress import showing
 from ._run import check, open
 from ._scenario import arguments, overrides
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError, __version__
 from ._store import Store
 from ._units import converted, in_si, symbols

@@ -4,7 +4,7 @@ import math
 
 from . import _slipfront
 from . import medium as laws
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError
 
 #: Dimensions of the constants of rock and interface.

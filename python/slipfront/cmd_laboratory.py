@@ -5,7 +5,7 @@ import sys
 
 from ._arguments import Arguments, put
 from ._messages import DONE, INPUT, complain
-from ._shown import shown
+from ._messages import shown
 from ._table import table
 
 #: Titles of the table for the terminal, the variable in units of the model, and in SI units.

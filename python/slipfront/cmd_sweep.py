@@ -11,7 +11,7 @@ from . import _slipfront
 from ._arguments import Arguments, chosen_units, put
 from ._grid import values_of
 from ._messages import DONE, NUMERICS, Interruption, complain
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError
 from ._table import GAP, table, width
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from .. import _slipfront
 from .._event import column_map, source
-from .._shown import shown
+from .._messages import shown
 from .._slipfront import InputError
 
 REQUIRED = ("shear_stress", "normal_stress", "rupture_velocity")

@@ -11,7 +11,7 @@ from .._files import write_dataset
 from .._numbers import np
 from .._optional import import_optional
 from .._scenario import output_path
-from .._shown import shown
+from .._messages import shown
 from .._slipfront import InputError
 from . import forward, priors, rows
 
@@ -113,10 +113,9 @@ def _result(likelihood, draws, left_out, studies, seed, attributes):
         variables[parameter.name] = ("draw", values, attrs)
     variables |= _event_variables(likelihood, draws.values, seed)
     reasons = [f"{name}: {reason}" for name, reason in left_out]
-    variables |= {
-        "name": texts("event", likelihood.events.name, "name of the event"),
-        "study": texts("event", studies, "study that published the event"),
-        "left_out": texts("left_out_event", reasons, "event that was not used, and why")}
+    variables |= {"name": texts("event", likelihood.events.name, "name of the event"),
+                  "study": texts("event", studies, "study that published the event"),
+                  "left_out": texts("left_out_event", reasons, "event that was not used, and why")}
     return dataset(variables, QUANTILE,
                    {"Conventions": "CF-1.10", "source": f"slipfront {_slipfront.__version__}",
                     "history": "slipfront population", "slipfront_format": "population 1",

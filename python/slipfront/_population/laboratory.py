@@ -9,7 +9,7 @@ from .._dataset import BOUND, QUANTILE, about, dataset, texts
 from .._files import write_dataset
 from .._numbers import np, whole
 from .._scenario import output_path
-from .._shown import shown
+from .._messages import shown
 from .._slipfront import InputError
 from .._units import constant, values_of
 from . import fronts as of_fronts

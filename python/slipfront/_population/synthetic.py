@@ -2,8 +2,8 @@
 
 from .._numbers import np
 from . import forward, priors
-from .events import Events
 from .likelihood import LEAST_IN_TABLE, share_in_table
+from .rows import Events
 from .selection import Selection
 
 TRIES = 4000  # candidates for each event of a round

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 import slipfront
 
 from ..plots.style import label, styled
-from . import look
+from . import picture as look
 from .derived import relation
 from .picture import Picture, picture
 

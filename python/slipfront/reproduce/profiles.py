@@ -8,7 +8,7 @@ import slipfront
 
 from .._dataset import about
 from ..plots.style import label, styled
-from . import look
+from . import picture as look
 from .numbers import FRICTION
 from .picture import Picture, picture
 from .runs import CLOSURES, SCALE

@@ -4,7 +4,7 @@ import numpy
 import xarray
 
 from .._dataset import about
-from . import look
+from . import picture as look
 from .numbers import FRICTION
 from .runs import CLOSURES, at_origin
 
@@ -36,8 +36,7 @@ def ratios(runs, read) -> xarray.Dataset:
                                            for width in WIDTHS.tolist()])
     width = float(WIDTHS[nearest(by_width, read)])
     changes = {"smooth": ("fig-10.toml", {"initial.width": width}),
-               "at_parkfield": ("fig-10.toml",
-                                {"initial.width": 0.1, "initial.stress_left": 1.03}),
+               "at_parkfield": ("fig-10.toml", {"initial.width": 0.1, "initial.stress_left": 1.03}),
                "step_stressed": ("step.toml", {"initial.stress_right": 0.179})}
     attrs = about("slip velocity at x = 0 over that without friction, into Sigma+ = 0.179")
     variables = {}

@@ -8,7 +8,7 @@ import slipfront
 
 from .._dataset import about
 from ..plots.style import styled
-from . import look
+from . import picture as look
 from .picture import Picture, picture
 
 
@@ -91,10 +91,9 @@ def contact() -> Picture:
     contact_ratio, sites = 0.4, 41
     u = static_chain(contact_ratio, sites)
     place = numpy.arange(sites) - (sites - 1) / 2
-    data = xarray.Dataset(
-        {"slip": ("site", u, about("displacement of an asperity", "b / (2 pi)")),
-         "place": ("site", place, about("its place without slip", "b"))},
-        attrs={"contact_ratio": contact_ratio})
+    data = xarray.Dataset({"slip": ("site", u, about("displacement of an asperity", "b / (2 pi)")),
+                           "place": ("site", place, about("its place without slip", "b"))},
+                          attrs={"contact_ratio": contact_ratio})
     return picture("fig-01", draw_contact(data), data, contact_ratio=contact_ratio)
 
 

@@ -106,16 +106,15 @@ def into_stress() -> dict:
                                                             "velocity_ratio"))
     drops = [100 * (1 - right / 0.855) for right in rights]
     rise = lead[4] / lead[2]
-    return {
-        "right_rupture": (EXACT, {"rupture": rupture[0],
-                                  "off": abs(rupture / rupture[0] - 1).max()}),
-        "right_leading": (judged((numpy.diff(lead) > 0).all()),
-                          {"first": lead[0], "at_179": lead[3], "at_427": lead[4],
-                           "last": lead[-1]}),
-        "right_equal": (judged(abs(ratio[-1] - 1) < 0.02),
-                        {"before": ratio[-2], "drop_before": drops[-2], "last": ratio[-1],
-                         "drop": drops[-1]}),
-        "right_shape": (judged(rise < 1.1), {"rise": 100 * (rise - 1)})}
+    return {"right_rupture": (EXACT,
+                              {"rupture": rupture[0], "off": abs(rupture / rupture[0] - 1).max()}),
+            "right_leading": (judged((numpy.diff(lead) > 0).all()),
+                              {"first": lead[0], "at_179": lead[3], "at_427": lead[4],
+                               "last": lead[-1]}),
+            "right_equal": (judged(abs(ratio[-1] - 1) < 0.02),
+                            {"before": ratio[-2], "drop_before": drops[-2], "last": ratio[-1],
+                             "drop": drops[-1]}),
+            "right_shape": (judged(rise < 1.1), {"rise": 100 * (rise - 1)})}
 
 
 def larger() -> dict:
@@ -172,8 +171,7 @@ def against_drop(found) -> dict:
     none = float(abs(W.sel(stress_drop=0.0)).max())
     vanishes = none < 1e-12 and max(at[0.05].values()) < 25
     return {**{f"drop_{100 * drop:.0f}": (judged(min(at[drop].values()) > 95), at[drop])
-               for drop in (0.35, 0.4)},
-            "drop_0": (judged(vanishes), at[0.05] | {"none": none}),
+               for drop in (0.35, 0.4)}, "drop_0": (judged(vanishes), at[0.05] | {"none": none}),
             "drop_none": (EXACT, {"none": none})}
 
 
@@ -218,9 +216,8 @@ def averages(steps) -> dict:
     """Compares Whitham's averages with every dislocation."""
     slip = {name: [at_origin(run, "slip_at_origin") for run in found]
             for name, found in steps.items()}
-    off = {closure: max(abs(theory / chain - 1)
-                        for theory, chain in zip(slip[closure], slip["chain"]))
-           for closure in CLOSURES}
+    off = {closure: max(abs(theory / chain - 1) for theory,
+                        chain in zip(slip[closure], slip["chain"])) for closure in CLOSURES}
     attrs = steps["chain"][2].attrs
     clock, percent = attrs["wall_seconds"], {name: 100 * value for name, value in off.items()}
     return {"practicable": (judged(clock > 3600),

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..plots.style import styled
-from . import look
+from . import picture as look
 from .numbers import FRICTION
 from .picture import Picture, picture
 from .runs import CLOSURES

@@ -8,7 +8,7 @@ import slipfront
 
 from .._dataset import about
 from ..plots.style import styled
-from . import look
+from . import picture as look
 from .numbers import FRICTION
 from .picture import Picture, picture
 from .runs import CLOSURES, SCALE, at_origin
@@ -48,10 +48,9 @@ def ratios(runs) -> xarray.Dataset:
                    about("slip velocity at x = 0 over that without friction, t = 2 pi"))
     return xarray.Dataset(
         {"slip_velocity_ratio": (axes, found["ratio"], attrs),
-         "uncertainty": (axes, found["uncertainty"],
-                         about("largest relative error of the ratio")),
-         "chain": (("stress", "friction_coefficient"), chain,
-                   about("the ratio on the chain, which knows no closure"))},
+         "uncertainty": (axes, found["uncertainty"], about("largest relative error of the ratio")),
+         "chain": (("stress", "friction_coefficient"), chain, about("the ratio on the chain, which "
+                                                                    "knows no closure"))},
         {"closure": list(CLOSURES), "stress": ("stress", list(STRESSES), look.STRESS),
          "friction_coefficient": ("friction_coefficient", COEFFICIENTS, look.FRICTION)},
         {"stress_right": 0.0, "scale": SCALE})
@@ -117,8 +116,7 @@ def drops(runs, coefficient=0.1) -> xarray.Dataset:
                               about("the same without friction, exact", "c A / pi")),
          "leading_velocity": (("stress_drop", "stress"), exact["leading_velocity"].values,
                               about("V+ of the leading edge without friction, exact", "c"))},
-        {"stress_drop": ("stress_drop", all_drops,
-                         about("stress drop (Sigma- - Sigma+) / Sigma-")),
+        {"stress_drop": ("stress_drop", all_drops, about("stress drop (Sigma- - Sigma+) / Sigma-")),
          "stress": ("stress", list(LEFT), look.STRESS), "closure": list(CLOSURES)},
         {"friction_coefficient": coefficient})
 

@@ -1,11 +1,9 @@
-"""Compares printed numbers with computed ones. The first of these verdicts that applies is the
-verdict:
+"""Compares printed numbers with computed ones. The first of these verdicts that applies counts:
 
-same: the computed number rounds to the printed digits, or satisfies the printed bound. follows from
-a printed number that differs: the paper's formula gives the printed digits if it is applied to
-other printed numbers. the paper rounds or misreads: the numbers differ by at most one unit of the
-last digit and at most a tenth of the number. For a number
-    that is read off a figure, they may also differ by the error of a ruler.
+same: the computed number rounds to the printed digits, or satisfies the printed bound.
+follows from a printed number that differs: so does the paper's formula of other printed numbers.
+the paper rounds or misreads: they differ by at most one unit of the last digit and a tenth of the
+    number or, for a number that is read off a figure, by the error of a ruler.
 the paper is wrong: none of these.
 """
 
