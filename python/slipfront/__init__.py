@@ -9,8 +9,8 @@ attribute `dimensional_unit`. The attribute `references` gives its equation in t
 (Gershenzon, Bambakidis and Skinner 2015, doi 10.3390/lubricants3020311).
 
 `train`, `medium` and `plots` are modules, `cases` is the folder of the scenarios that come with
-slipfront, and `dataset.slipfront.si` converts a Dataset to SI units. docs/python.md lists the
-functions by what they do.
+slipfront, `__version__` its version, and `dataset.slipfront.si` converts a Dataset to SI units.
+docs/python.md lists the functions by what they do.
 """
 
 import pathlib

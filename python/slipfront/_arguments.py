@@ -61,12 +61,11 @@ class Arguments(argparse.ArgumentParser):
         options = super().parse_args(args, namespace)
         _table.Lines.whole = options.wide
         if output := getattr(options, "output", None):
-            words = [value
-                     for name, value in vars(options).items() if name not in ("output", "resume")]
-            require_other_file(os.fsencode(output),
-                               [os.fsencode(text) for value in words
-                                for text in (value if isinstance(value, list) else [value])
-                                if isinstance(text, str)])
+            words = [value for name, value in vars(options).items()
+                     if name not in ("output", "resume")]
+            words += [word for value in words if isinstance(value, list) for word in value]
+            files = [os.fsencode(word) for word in words if isinstance(word, str)]
+            require_other_file(os.fsencode(output), files)
         return options
 
     def error(self, message):

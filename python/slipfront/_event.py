@@ -73,8 +73,9 @@ def sources(events):
 
 def column_map(columns):
     """Returns (TOML text, file) of a map of columns. One of them is empty."""
-    return (to_toml(columns), "") if isinstance(columns, Mapping) else ("",
-                                                                        path("columns", columns))
+    if isinstance(columns, Mapping):
+        return to_toml(columns), ""
+    return "", path("columns", columns)
 
 
 def _default(value):

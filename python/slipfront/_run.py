@@ -245,16 +245,15 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     clock = about("wall-clock time of the level", units="s")
     per_level = {described[0]: in_results(result, "level", values, described)
                  for described, values in result["level_numbers"]}
-    data = data.assign({"closure": ("level", [level["closure"] for level in levels],
-                                    {"long_name": "how friction is averaged"}), **per_level,
-                        "wall_seconds": ("level", of_levels("wall_seconds"), clock),
-                        "difference": (("level", "quantity"), difference,
-                                       about("value at the end of the run minus that of "
-                                             f"{reference}"))})
-    for name, values, long_name in zip(("exponent", "extrapolated", "difference"), trends[1:],
-                                       (f"p: the difference of the chain from {reference} falls as "
-                                        "scale^-p", "value of the chain, extrapolated to infinite "
-                                        "scale", f"extrapolated value minus that of {reference}")):
+    closures = [level["closure"] for level in levels]
+    off = about(f"value at the end of the run minus that of {reference}")
+    data = data.assign({"closure": ("level", closures, {"long_name": "how friction is averaged"}),
+                        **per_level, "wall_seconds": ("level", of_levels("wall_seconds"), clock),
+                        "difference": (("level", "quantity"), difference, off)})
+    words = {"exponent": f"p: the difference of the chain from {reference} falls as scale^-p",
+             "extrapolated": "value of the chain, extrapolated to infinite scale",
+             "difference": f"extrapolated value minus that of {reference}"}
+    for (name, long_name), values in zip(words.items(), trends[1:]):
         data[f"trend_{name}"] = ("quantity", list(values), about(long_name))
     scale = ("level", of_levels("scale"), attributes(result["scale_about"]))
     data = data.assign_coords(name=("level", names, {"long_name": "level of theory"}), scale=scale,

@@ -232,8 +232,8 @@ def _unit_of_axis(key, values):
 
 def _quantities(values):
     """Returns the numbers and the unit of texts such as "5 MPa", or the values and ""."""
-    found = [match
-             for value in values if isinstance(value, str) and (match := QUANTITY.fullmatch(value))]
+    found = [match for value in values
+             if isinstance(value, str) and (match := QUANTITY.fullmatch(value))]
     if len(found) < len(values) or len({match[2] for match in found}) > 1:
         return values, ""
     return [float(match[1]) for match in found], found[0][2]

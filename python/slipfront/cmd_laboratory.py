@@ -64,8 +64,7 @@ def as_json(data, file, si):
                 front[name] = known(value)
     return {**found, "warnings": lines(data, "warnings"), "velocity_unit": "m/s" if si else "c",
             "fronts": fronts, "errors": lines(data, "errors"),
-            "ignored_columns": [title
-                                for title in data.attrs["ignored_columns"].split(", ") if title]}
+            "ignored_columns": list(filter(None, data.attrs["ignored_columns"].split(", ")))}
 
 
 def with_interval(data, name, scale=1.0):

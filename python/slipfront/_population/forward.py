@@ -25,28 +25,29 @@ def _on_grid(function):
 
 
 def _free(name):
+    names = [about[0] for about in _slipfront.relations_quantities]
     columns = _slipfront.relations("stress", np.exp(LOG_STRESS), 1)
-    return np.log(columns[[about[0]
-                           for about in _slipfront.relations_quantities].index(name)])[:, None]
+    return np.log(columns[names.index(name)])[:, None]
 
 
 @functools.lru_cache(maxsize=None)
 def size(kind):
     """Returns ln(size / A): pi w / c for slip (w = slip over T), pi P / (c T)^2 for potency P."""
     if kind == SLIP:
-        return _free("slip_velocity") + np.log(
-            _on_grid(lambda s, g: _slipfront.friction_ratio(s, g, "time-mean", "consistent")[0]))
-    return _free("rupture_velocity") + _free("slip_velocity") + _on_grid(lambda s, g: share(s,
-                                                                                            g)[0])
+        ratio = _on_grid(lambda s, g: _slipfront.friction_ratio(s, g, "time-mean", "consistent")[0])
+        return _free("slip_velocity") + np.log(ratio)
+    potency = _on_grid(lambda s, g: share(s, g)[0])
+    return _free("rupture_velocity") + _free("slip_velocity") + potency
 
 
 @functools.lru_cache(maxsize=None)
 def front(threshold):
     """Returns ln(V / c) of the front above a threshold of an observer; 0 means |V-|."""
     free = _free("rupture_velocity") + np.zeros(len(LOG_DAMPING))
-    return (free
-            + np.log(_on_grid(lambda s, g: _slipfront.front_ratio(s, g, threshold, "consistent")))
-            if threshold else free)
+    if not threshold:
+        return free
+    ratio = _on_grid(lambda s, g: _slipfront.front_ratio(s, g, threshold, "consistent"))
+    return free + np.log(ratio)
 
 
 def at(grid, log_stress, log_damping):

@@ -83,8 +83,8 @@ def read(table, strict=False, columns=None, normal_stress=None):
     text, file = _text_of(table)
     constant = None
     if normal_stress is not None:
-        constant = _slipfront.parse_measured(str(normal_stress), "pressure",
-                                             "" if isinstance(normal_stress, str) else "Pa", "", 0,
+        unit = "" if isinstance(normal_stress, str) else "Pa"
+        constant = _slipfront.parse_measured(str(normal_stress), "pressure", unit, "", 0,
                                              "normal_stress")
     required = [name for name in REQUIRED if constant is None or name != "normal_stress"]
     rows, ignored, notes = _slipfront.fronts(text, file, column_map(columns), required)

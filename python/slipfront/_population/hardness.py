@@ -86,13 +86,13 @@ def velocity_likelihood(measured, speed, ends, spacing):
     velocity = closed_form(edges)[0] * speed
     across = np.diff(np.log(velocity) if measured.is_lognormal else velocity)
     share = np.diff(measured.share_below(velocity))
-    # The likelihood of a normal error falls towards 0, see docs/events.md
-    if not (measured.is_lognormal or measured.is_range):
-        share *= np.minimum(1, (velocity[1:] + velocity[:-1]) / 2
-                            / (measured.least_even_share * measured.middle))
     middle = measured.middle
-    peak = float(measured.share_below(middle * (1 + 1e-6))
-                 - measured.share_below(middle * (1 - 1e-6)))
+    # The likelihood of a normal error falls towards 0, see docs/events.md.
+    if not (measured.is_lognormal or measured.is_range):
+        even = measured.least_even_share * middle
+        share *= np.minimum(1, (velocity[1:] + velocity[:-1]) / 2 / even)
+    below, above = measured.share_below(middle * np.array([1 - 1e-6, 1 + 1e-6]))
+    peak = float(above - below)
     peak /= math.log((1 + 1e-6) / (1 - 1e-6)) if measured.is_lognormal else 2e-6 * middle
     # The velocity no longer depends on the stress
     flat = across < 1e-9 * (1 if measured.is_lognormal else middle)
@@ -115,19 +115,19 @@ class Evidence:
         width = ends[1] - ends[0] + tau[1] - tau[0] + normal[1] - normal[0]
         spacing = width / (CELLS if width < WIDE else CELLS_IF_WIDE) or 1.0
         stress = velocity_likelihood(front.front_velocity, speed, ends, spacing)
-        shear, pressure = Cells.of_input(front.shear_stress,
-                                         spacing), Cells.of_input(front.normal_stress, spacing)
+        shear, pressure = (Cells.of_input(measured, spacing)
+                           for measured in (front.shear_stress, front.normal_stress))
         joint = stress.masses[:, None] * shear.masses
         if front.stress_drop is not None:
-            joint = joint * front.stress_drop.likelihood(closed_form(stress.centres)[1][:, None]
-                                                         * np.exp(shear.centres))
+            drops = closed_form(stress.centres)[1][:, None] * np.exp(shear.centres)
+            joint = joint * front.stress_drop.likelihood(drops)
         i, j = np.indices(joint.shape)
         difference = np.bincount((i - j + shear.masses.size - 1).ravel(), weights=joint.ravel())
         masses = np.convolve(difference, pressure.masses)
         first = stress.centres[0] - shear.centres[-1] + pressure.centres[0] - ln_factor
-        self.ratio = Cells(shear.centres[0] - pressure.centres[-1]
-                           + spacing * np.arange(shear.masses.size + pressure.masses.size - 1),
-                           np.convolve(shear.masses, pressure.masses[::-1]))
+        ratios = np.convolve(shear.masses, pressure.masses[::-1])
+        least = shear.centres[0] - pressure.centres[-1]
+        self.ratio = Cells(least + spacing * np.arange(ratios.size), ratios)
         self.possible = bool(masses.sum() > 0)
         self.levels = self._levels(first + spacing * np.arange(masses.size),
                                    masses / (masses.sum() or 1), spacing)

@@ -8,7 +8,7 @@ from .. import _slipfront
 from .._dataset import QUANTILE, about, dataset, texts
 from .._event import _default, column_map, sources
 from .._files import write_dataset
-from .._numbers import np
+from .._numbers import np, whole
 from .._optional import import_optional
 from .._scenario import output_path
 from .._messages import shown
@@ -193,11 +193,8 @@ def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smalles
     from . import sample
     from .likelihood import Likelihood
 
-    for name, value in (("steps", steps), ("seed", seed)):
-        if isinstance(value, bool) or not isinstance(value, int) or not (20 if name == "steps"
-                                                                         else 0) <= value < 2**31:
-            raise InputError(f"{name} = '{shown(value)}': out of range; allowed: a whole number "
-                             f"from {20 if name == 'steps' else 0}")
+    whole("steps", steps, 20, 2**31 - 1)
+    whole("seed", seed, 0, 2**31 - 1)
     if progress is not None and not callable(progress):
         raise InputError(f"progress: a {type(progress).__name__}; allowed: a function of the steps "
                          "done and all steps")

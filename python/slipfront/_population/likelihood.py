@@ -101,8 +101,8 @@ class Likelihood:
             for first in np.unique(self.front_row):
                 chosen = self.front_row == first
                 for row in range(self.rows):
-                    end[chosen, row] = np.searchsorted(
-                        np.maximum.accumulate(self.fronts[first + row]), front[chosen])
+                    rising = np.maximum.accumulate(self.fronts[first + row])
+                    end[chosen, row] = np.searchsorted(rising, front[chosen])
         return np.clip(windows[0] - 1, 0, STRESS_STEPS), np.clip(windows[1], 0, STRESS_STEPS)
 
     def _stress_nodes(self, values, scatter, resolution):
@@ -113,9 +113,8 @@ class Likelihood:
         size_error = np.sqrt(self.error.min() ** 2 + scatter)
         steepest = (np.square(self.front_slope / self.front_error.min())
                     + np.square(self.size_slope / size_error) + np.square(1 / (spread * U_SLOPE)))
-        stride = STRIDES[max(np.searchsorted(STRIDES, resolution
-                                             / np.sqrt(steepest[low:high + 1].max()) / STRESS_STEP,
-                                             side="right") - 1, 0)]
+        largest = resolution / np.sqrt(steepest[low:high + 1].max()) / STRESS_STEP
+        stride = STRIDES[max(np.searchsorted(STRIDES, largest, side="right") - 1, 0)]
         ends = np.ones(STRESS_STEPS + 1)
         ends[::stride][:3] = ends[::-stride][:3] = END_WEIGHTS
         weight = (np.log(ends * stride * STRESS_STEP / U_SLOPE / (spread * np.sqrt(2 * np.pi)))
@@ -127,25 +126,25 @@ class Likelihood:
         low, high, stride, weight = self._stress_nodes(values, scatter, resolution)
         first = np.clip(self.low[chosen[:, None], rows], low, high) // stride
         last = -(-np.clip(self.high[chosen[:, None], rows], low, high) // stride)
-        count = max((last - first).max() + 1, 6)
-        first = np.clip(first, 0, STRESS_STEPS // stride - count
-                        + 1) * stride if count <= STRESS_STEPS // stride else np.zeros_like(first)
-        columns = first[:, :, None] + stride * np.arange(min(count, STRESS_STEPS // stride + 1))
+        most = STRESS_STEPS // stride + 1
+        count = min(max((last - first).max() + 1, 6), most)
+        first = np.clip(first, 0, most - count) * stride
+        columns = first[:, :, None] + stride * np.arange(count)
         return first, stride, columns, np.take(weight.astype(np.float32), columns)
 
     def _kappa_stride(self, values, scatter, resolution):
         """Returns the rows of the table between nodes: 2 if these are narrow enough, else 1."""
-        share = values[3] ** 2 / (values[3] ** 2 + values[5] ** 2)
-        steepest = 1 / (values[3] ** 2
-                        + values[5] ** 2) + np.square(self.front_rise / self.front_error.min())
-        # D ln(size) / d ln(Gamma) is between -1 and 0.
+        variance = values[3] ** 2 + values[5] ** 2
+        share = values[3] ** 2 / variance
+        steepest = 1 / variance + np.square(self.front_rise / self.front_error.min())
+        # The slope d ln(size) / d ln(Gamma) is between -1 and 0.
         steepest += max(share, 1 - share) ** 2 / (self.error.min() ** 2 + scatter)
         return 2 if 2 * STEP <= resolution / np.sqrt(steepest) else 1
 
     def _kappa_nodes(self, values, chosen, stride):
         """Returns rows of the table for each event, kappa there and ln of the weights."""
-        centre, spread = (np.log(values[2]) - self.log_hardness + np.log(values[4]),
-                          np.hypot(values[3], values[5]))
+        centre = np.log(values[2]) - self.log_hardness + np.log(values[4])
+        spread = np.hypot(values[3], values[5])
         shift = self.place[chosen] - forward.LOG_DAMPING[0]
         first = np.ceil((centre - REACH * spread + shift) / STEP).astype(int)
         rows = first[:, None] + stride * np.arange(int(2 * REACH * spread / (STEP * stride)) + 1)
@@ -165,18 +164,21 @@ class Likelihood:
         expected = contact + normal_spread**2 / variance * (kappa - contact - np.log(friction))
         error = self.front_error[chosen][:, None]
         kappa_weight = kappa_weight - np.log(error * np.sqrt(2 * np.pi))
-        starts = (rows * (STRESS_STEPS + 1))[:, :, None]
-        fronts = np.take(self.fronts, columns + starts
-                         + (self.front_row[chosen] * (STRESS_STEPS + 1))[:, None, None])
-        off = (self.events.log_front[chosen, None].astype(np.float32)[:, :, None]
-               - fronts) * (1 / error).astype(np.float32)[:, :, None]
-        sizes = np.take(self.sizes, columns + starts
-                        + (self.size_row[chosen] * (STRESS_STEPS + 1))[:, None, None])
-        rest = (self.events.log_size[chosen, None]
-                - expected).astype(np.float32)[:, :, None] - sizes
+        places = columns + (rows * (STRESS_STEPS + 1))[:, :, None]
+
+        def of_table(table, row):
+            return np.take(table, places + (row[chosen] * (STRESS_STEPS + 1))[:, None, None])
+
+        def single(array):
+            return array.astype(np.float32)[:, :, None]
+
+        off = single(self.events.log_front[chosen, None]) - of_table(self.fronts, self.front_row)
+        off *= single(1 / error)
+        rest = single(self.events.log_size[chosen, None] - expected)
+        rest = rest - of_table(self.sizes, self.size_row)
         if self.slant[chosen].any():
-            rest -= (self.slant[chosen, None] * error).astype(np.float32)[:, :, None] * off
-        weight += kappa_weight.astype(np.float32)[:, :, None] - np.float32(0.5) * np.square(off)
+            rest -= single(self.slant[chosen, None] * error) * off
+        weight += single(kappa_weight) - np.float32(0.5) * np.square(off)
         return Nodes(weight, rest, np.sqrt(self.error[chosen] ** 2 + scatter), kappa,
                      STEP * kappa_stride, first, stride)
 
@@ -202,10 +204,10 @@ class Likelihood:
             return -np.inf
         total = 0.0
         if self.single.any():
-            total += np.sum(self.each(values, np.zeros(1), np.flatnonzero(self.single), values[-1]))
+            zero, singles = np.zeros(1), np.flatnonzero(self.single)
+            total += np.sum(self.each(values, zero, singles, values[-1]))
             if self.selection:
-                total -= np.sum(self.selection.log_probability(np.zeros(1), self.single,
-                                                               single=True))
+                total -= np.sum(self.selection.log_probability(zero, self.single, single=True))
         if len(self.several):
             total += np.sum(_log_mean(self.by_study(values)))
         return total if np.isfinite(total) else -np.inf
@@ -257,5 +259,5 @@ def _log_mean(logarithms):
     """Returns ln of the mean over the offsets of a study, which are standard normal."""
     exponent = logarithms - 0.5 * FINE**2
     most = exponent.max(axis=1)
-    return most + np.log(np.exp(exponent - most[:, None]).sum(axis=1)
-                         * (FINE[1] - FINE[0]) / np.sqrt(2 * np.pi))
+    sums = np.exp(exponent - most[:, None]).sum(axis=1)
+    return most + np.log(sums * (FINE[1] - FINE[0]) / np.sqrt(2 * np.pi))

@@ -79,25 +79,25 @@ def read_row(row, errors):
     log_front = front - np.log(row["speed"])
     if log_front >= 0:
         return "the rupture velocity is above c"
-    moment, width = moment_of(row), row["width"]
+    speed, moment, width, slip = row["speed"], moment_of(row), row["width"], row["slip"]
     if np.isfinite(moment[0] + width[0]):
+        kind, powers, reported, own = forward.MOMENT, 2, moment[0], np.hypot(moment[1], width[1])
         potency = moment[0] - width[0] - np.log(row["shear_modulus"])
-        size = log_size(forward.MOMENT, speed=row["speed"], log_duration=duration[0],
-                        log_potency=potency)
-        own, kind, powers = np.hypot(moment[1], width[1]), forward.MOMENT, 2
-    elif np.isfinite(row["slip"][0]):
+        size = log_size(kind, speed=speed, log_duration=duration[0], log_potency=potency)
+    elif np.isfinite(slip[0]):
+        kind, powers, (reported, own) = forward.SLIP, 1, slip
         time = row["rise_time"] if np.isfinite(row["rise_time"][0]) else duration
-        size = log_size(forward.SLIP, speed=row["speed"], log_duration=duration[0],
-                        log_slip=row["slip"][0], log_slip_time=time[0])
-        own, kind, powers = row["slip"][1], forward.SLIP, 1
+        size = log_size(kind, speed=speed, log_duration=duration[0], log_slip=slip[0],
+                        log_slip_time=time[0])
     else:
         return "no slip, and no moment with a width"
+    seen = row["rupture_velocity_is"] == "front"
     return {"name": row["name"], "study": row["study"] or row["citation"] or f"line {row['line']}",
-            "speed": row["speed"], "log_duration": duration[0], "log_front": log_front,
-            "front_error": front_error or errors["velocity"], "threshold": row["front_threshold"]
-            if row["rupture_velocity_is"] == "front" else 0.0, "kind": kind, "log_size": size,
-            "size_error": np.hypot(own or errors["size"], powers * duration[1]), "shared": powers
-            * in_front**2, "unit": size - (moment[0] if kind == forward.MOMENT else row["slip"][0])}
+            "speed": speed, "log_duration": duration[0], "log_front": log_front,
+            "front_error": front_error or errors["velocity"],
+            "threshold": row["front_threshold"] if seen else 0.0, "kind": kind, "log_size": size,
+            "size_error": np.hypot(own or errors["size"], powers * duration[1]),
+            "shared": powers * in_front**2, "unit": size - reported}
 
 
 def arrays(found, smallest):

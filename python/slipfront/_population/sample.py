@@ -66,8 +66,8 @@ class Jumps:
 
     def __init__(self, x, weights):
         self.centre, self.size = np.average(x, axis=0, weights=weights), x.shape[1]
-        self.shape = np.linalg.cholesky(WIDER * np.cov(x.T, aweights=weights)
-                                        + 1e-6 * np.eye(self.size))
+        covariance = WIDER * np.cov(x.T, aweights=weights)
+        self.shape = np.linalg.cholesky(covariance + 1e-6 * np.eye(self.size))
 
     def draw(self, generator, count):
         scale = np.sqrt(FREEDOM / generator.chisquare(FREEDOM, (count, 1)))
@@ -95,8 +95,8 @@ def _proposal(jumps, x, i, generator):
     if kind < 0.6:
         return x[i] + generator.choice([1.0, 0.4]) * 2.38 / np.sqrt(size) * small, 0.0
     first, second = generator.choice(count - 1, 2, replace=False)
-    return (x[i] + generator.choice([1.0, 0.6, 0.3])
-            * (x[first + (first >= i)] - x[second + (second >= i)]) + 1e-2 * small, 0.0)
+    along = x[first + (first >= i)] - x[second + (second >= i)]
+    return x[i] + generator.choice([1.0, 0.6, 0.3]) * along + 1e-2 * small, 0.0
 
 
 def _sweep(target, power, particles, jumps, generator):
@@ -129,8 +129,8 @@ def _tempered(target, generator):
 def _rhat(chains):
     """Returns R-hat of chains[ensemble, step, walker], of both halves of each ensemble."""
     half = chains.shape[1] // 2
-    parts = np.concatenate([chains[:, :half], chains[:, half:2 * half]]).reshape(2 * len(chains),
-                                                                                 -1)
+    parts = np.concatenate([chains[:, :half], chains[:, half:2 * half]])
+    parts = parts.reshape(2 * len(chains), -1)
     return float(np.sqrt(1 + parts.mean(axis=1).var(ddof=1) / parts.var(axis=1, ddof=1).mean()))
 
 
@@ -149,8 +149,8 @@ def sample(likelihood, steps, seed, progress=None):
                  (emcee.moves.StretchMove(), 0.2)]
         sampler = emcee.EnsembleSampler(WALKERS, len(priors.NAMES), target, moves=moves)
         sampler.random_state = np.random.RandomState(generator.integers(2**31)).get_state()
-        for step, _ in enumerate(sampler.sample(generator.permutation(particles)[:WALKERS],
-                                                iterations=steps), 1):
+        start = generator.permutation(particles)[:WALKERS]
+        for step, _ in enumerate(sampler.sample(start, iterations=steps), 1):
             if progress:
                 progress(ensemble * steps + step, ENSEMBLES * steps)
         chains.append(sampler.get_chain(discard=int(steps * WARM_UP)))

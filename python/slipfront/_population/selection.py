@@ -61,10 +61,11 @@ class Selection:
 
     def _table(self, sizes, weights, deviation):
         """Returns a spline of ln P(size > limit), in ln(duration) and the limit."""
-        ndtr, spline = (import_optional("scipy.special").ndtr,
-                        import_optional("scipy.interpolate").RectBivariateSpline)
-        return spline(self.grid, self.limits, np.log(np.maximum(np.tensordot(
-            ndtr((sizes[:, :, None] - self.limits) / deviation), weights, axes=(1, 0)), 1e-12)))
+        ndtr = import_optional("scipy.special").ndtr
+        spline = import_optional("scipy.interpolate").RectBivariateSpline
+        above = ndtr((sizes[:, :, None] - self.limits) / deviation)
+        probability = np.tensordot(above, weights, axes=(1, 0))
+        return spline(self.grid, self.limits, np.log(np.maximum(probability, 1e-12)))
 
     def prepare(self, values, log_hardness):
         """Computes the probabilities. Returns whether enough events enter the catalogue."""

@@ -32,8 +32,8 @@ def draw(likelihood, values, generator):
     deviation = nodes.deviation
     known = np.where(alone, 0, offsets)
     width = np.where(alone, np.hypot(deviation, study_spread), deviation)
-    exponent = nodes.weight - 0.5 * ((nodes.rest - known[:, None, None])
-                                     / width[:, None, None]) ** 2
+    off = (nodes.rest - known[:, None, None]) / width[:, None, None]
+    exponent = nodes.weight - 0.5 * off**2
     events = np.arange(len(exponent))
     flat = exponent.reshape(len(exponent), -1)
     place = (flat + generator.gumbel(size=flat.shape)).argmax(axis=1)

@@ -36,11 +36,11 @@ def parameters(generator, events, log_hardness):
 def states(generator, values, count, log_hardness):
     """Returns ln(Sigma-), ln(A) and ln(C / b) of events of a population."""
     stress, stress_spread, normal, normal_spread, friction, friction_spread, _ = values
+    least, most = forward.LOG_STRESS[[0, -1]]
     log_stress = np.log(stress) + stress_spread * generator.standard_normal(count)
-    while (outside := (log_stress < forward.LOG_STRESS[0])
-           | (log_stress > forward.LOG_STRESS[-1])).any():
-        log_stress[outside] = (np.log(stress)
-                               + stress_spread * generator.standard_normal(outside.sum()))
+    while (outside := (log_stress < least) | (log_stress > most)).any():
+        scatter = stress_spread * generator.standard_normal(outside.sum())
+        log_stress[outside] = np.log(stress) + scatter
     return (log_stress,
             np.log(normal) - log_hardness + normal_spread * generator.standard_normal(count),
             np.log(friction) + friction_spread * generator.standard_normal(count))

@@ -38,16 +38,15 @@ def positions(pulse, scale: float) -> numpy.ndarray:
     held = numpy.cumsum(density * numpy.diff(edges), axis=1) * scale / (2 * numpy.pi)
     held = numpy.concatenate((numpy.zeros((len(held), 1)), held), axis=1)
     wanted = numpy.arange(0.5, held[0, -1])
-    # The count is constant across cells without dislocations. numpy.interp then takes their last
-    # edge.
+    # The count is constant across cells without dislocations: interp takes their last edge.
     return numpy.array([numpy.interp(wanted, row, edges, right=numpy.nan) for row in held])
 
 
 def scale_of(pulse, left, right) -> float:
     """Returns the factor for the density at which about SHOWN dislocations are shown."""
     seen = pulse.isel(time=0)["k"].where((pulse["x"] > left) & (pulse["x"] < right))
-    count = float((seen * (pulse["x_bounds"][:, 1] - pulse["x_bounds"][:, 0])).sum()) / (2
-                                                                                         * numpy.pi)
+    widths = pulse["x_bounds"][:, 1] - pulse["x_bounds"][:, 0]
+    count = float((seen * widths).sum()) / (2 * numpy.pi)
     return SHOWN / count if count > 0 else 1.0
 
 
@@ -84,10 +83,9 @@ class Column:
                 artist.set_visible(there)
             if there:
                 text.set_x(places[row])
-                # Near the right end, the symbol is left of its line
                 left, right = text.axes.get_xlim()
-                text.set_horizontalalignment("left" if symbol == "V+" and places[row] < right
-                                             - (right - left) / 10 else "right")
+                near_end = places[row] >= right - (right - left) / 10
+                text.set_horizontalalignment("left" if symbol == "V+" and not near_end else "right")
                 for line in lines:
                     line.set_xdata([places[row]] * 2)
 

@@ -26,8 +26,9 @@ def scale_of(values) -> str:
 def bins_of(values, count):
     """Returns the edges of a quantity's bins. The bins are equally wide on its axis."""
     ends = values.min(), values.max()
-    return numpy.geomspace(*ends, count
-                           + 1) if scale_of(values) == "log" else numpy.linspace(*ends, count + 1)
+    if scale_of(values) == "log":
+        return numpy.geomspace(*ends, count + 1)
+    return numpy.linspace(*ends, count + 1)
 
 
 def drawn(dataset):

@@ -40,24 +40,24 @@ def panel(axes, events, name, kinds, scale=1.0):
     kind_of = numpy.array(texts(events["kind"]) if "kind" in events
                           else [""] * events["stress"].size)
     across, up = bars(events, "rupture_velocity"), bars(events, name)
-    there = ~numpy.isnan(events["rupture_velocity"].values.astype(float)
-                         * events[name].values.astype(float))
+    up = None if up is None else scale * up
+    velocity, values = (events[key].values.astype(float) for key in ("rupture_velocity", name))
+    values = scale * values
+    there = ~numpy.isnan(velocity * values)
     for i, kind in enumerate(kinds):
         chosen = (kind_of == kind) & there
         if not chosen.any():
             continue
-        x, y = (events["rupture_velocity"].values[chosen],
-                scale * events[name].values[chosen].astype(float))
+        x, y = velocity[chosen], values[chosen]
         label, colour = plain(kind.replace("_", " ")) or "events", COLOURS[i % len(COLOURS)]
         if events["stress"].size > MANY:
             axes.plot(x, y, linestyle="none", marker=".", markersize=2, markeredgewidth=0,
                       color=colour, alpha=0.4, label=label, rasterized=True)
             continue
         lower = chosen if name.endswith("_bound") else chosen & known_of(events, f"{name}_bound")
-        arrows(axes, events["rupture_velocity"].values[lower],
-               scale * events[name].values[lower].astype(float), colour)
-        axes.errorbar(x, y, fmt=MARKS[i % len(MARKS)], color=colour, xerr=None if across is None
-                      else across[:, chosen], yerr=None if up is None else scale * up[:, chosen],
+        arrows(axes, velocity[lower], values[lower], colour)
+        xerr, yerr = (None if both is None else both[:, chosen] for both in (across, up))
+        axes.errorbar(x, y, fmt=MARKS[i % len(MARKS)], color=colour, xerr=xerr, yerr=yerr,
                       label=label, alpha=0.85, linewidth=0.8, linestyle="none", markeredgewidth=0.8)
 
 
@@ -96,8 +96,9 @@ def contact_lines(axes, line, low, high):
 
 
 def known_of(events, name):
-    return events[name].notnull().values if name in events else numpy.zeros(events["stress"].size,
-                                                                            bool)
+    if name in events:
+        return events[name].notnull().values
+    return numpy.zeros(events["stress"].size, bool)
 
 
 def known(events, name) -> bool:

@@ -148,8 +148,8 @@ def space_time(pulse, fields=("W", "Sigma")) -> Picture:
     panels = figure.subplots(1, len(fields), sharey=True, squeeze=False)[0]
     (left, right), outputs = window(pulse), pulse["time"].values
     # These are the edges of the map's points. The values are computed at their centres.
-    across, up = numpy.linspace(left, right, POINTS[0] + 1), numpy.linspace(outputs[0], outputs[-1],
-                                                                            POINTS[1] + 1)
+    across = numpy.linspace(left, right, POINTS[0] + 1)
+    up = numpy.linspace(outputs[0], outputs[-1], POINTS[1] + 1)
     for axes, name in zip(panels, fields):
         scale = colours(pulse[name].values, rest_of(pulse[name]))
         values = between(pulse, name, (up[1:] + up[:-1]) / 2, (across[1:] + across[:-1]) / 2)

@@ -28,8 +28,9 @@ def table(paper) -> list:
     cn = numpy.array([1.0, -1.0])  # cn on the two sides of a dislocation, half a period apart
     across = -numpy.diff(numpy.arcsin(cn))[0] / (2 * math.pi)
     both = {"slip_of_one": (across, 2 * across),
-            "slip_velocity": (velocity * per_length / (2 * math.pi), 2 * math.pi * velocity
-                              * per_length), "unit_of_force": unit_of_force(paper),
+            "slip_velocity": (velocity * per_length / (2 * math.pi),
+                              2 * math.pi * velocity * per_length),
+            "unit_of_force": unit_of_force(paper),
             "trailing_edge": (-1.0, -relation("rupture_velocity", stress=stress))}
     rows = []
     for formula in paper["formula"]:

@@ -56,19 +56,20 @@ def closed_forms(paper) -> dict:
     given = taken(paper)
     decade = relation("stress", rupture_velocity=SLOWEST)
     parkfield = event("parkfield-2004.toml", "rupture_velocity")
+    velocity, slip_velocity = (orders(name, decade) for name in ("rupture_velocity",
+                                                                 "slip_velocity"))
+    read = given["parkfield_rupture_velocity"]
     return {"neighbours": 2.0**3, "dislocation_stress": peak_stress(),
             "orders_of_range": math.log10(parkfield / SLOWEST),
             "orders_of_events": math.log10(parkfield / event("ets.toml", "rupture_velocity")),
-            "orders_of_velocity": orders("rupture_velocity", decade),
-            "orders_of_velocity_caption": orders("rupture_velocity", decade),
-            "orders_of_slip_velocity": orders("slip_velocity", decade), "decade_from": decade,
+            "orders_of_velocity": velocity, "orders_of_velocity_caption": velocity,
+            "orders_of_slip_velocity": slip_velocity, "decade_from": decade,
             "orders_low": orders("rupture_velocity", 0.1),
             "orders_high": orders("rupture_velocity", 0.3),
             "c": event("parkfield-2004.toml", "c_m_s") / 1000,
-            "parkfield_stress": relation("stress",
-                                         rupture_velocity=given["parkfield_rupture_velocity"]),
-            "velocity_at_printed_stress": relation("rupture_velocity",
-                                                   stress=given["parkfield_stress"]),
+            "parkfield_stress": relation("stress", rupture_velocity=read),
+            "velocity_at_printed_stress":
+                relation("rupture_velocity", stress=given["parkfield_stress"]),
             "parkfield_slip_velocity": relation("slip_velocity", stress=given["parkfield_stress"]),
             "ets_stress": event("ets.toml", "stress"),
             "ets_slip_velocity": relation("slip_velocity", stress=given["ets_stress"]),
@@ -106,8 +107,8 @@ def figure_10(ratio, curves, without) -> dict:
                      "ratios_at_parkfield": list_of(ratio["at_parkfield"].sel(at)),
                      "ratios_step": list_of(solid.sel(friction_coefficient=list(FRICTION))),
                      "ratios_step_stressed": list_of(ratio["step_stressed"].sel(at)),
-                     "ratios_consistent": list_of(ratio["smooth"].sel(at
-                                                                      | {"closure": "consistent"})),
+                     "ratios_consistent":
+                         list_of(ratio["smooth"].sel(at | {"closure": "consistent"})),
                      "ets_friction": read_friction(0.855, 0.2),
                      "ets_friction_nearest": read_friction(0.419, 0.2)}
 

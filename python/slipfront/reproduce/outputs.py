@@ -65,8 +65,8 @@ def whole_folder(path):
     path = pathlib.Path(os.path.abspath(path))
     with told_of(path):
         tidy(path)
-    if path.exists() and not (path / "report.html").is_file() and (not path.is_dir()
-                                                                   or any(path.iterdir())):
+    replaceable = not path.exists() or (path / "report.html").is_file()
+    if not replaceable and (not path.is_dir() or any(path.iterdir())):
         raise ValueError(f"-o {path}: exists and is not a reproduction; allowed: a new name, an "
                          "empty folder or an earlier reproduction")
     beside, old = (path.with_name(f".{path.name}.{kind}-{os.getpid()}") for kind in ("new", "old"))

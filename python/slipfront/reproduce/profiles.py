@@ -24,12 +24,11 @@ def profiles(runs, case, width) -> xarray.Dataset:
     found += runs.chains(case, [(case, change) for change in changes])
     grid = found[0]["x"]
     ends = [run[["W", "Sigma"]].isel(time=-1).drop_vars("time").interp(x=grid) for run in found]
-    rows = [xarray.concat(ends[i:i + 3],
-                          xarray.DataArray(list(FRICTION), dims="friction_coefficient",
-                                           name="friction_coefficient", attrs=look.FRICTION))
-            for i in (0, 3, 6)]
-    data = xarray.concat(rows,
-                         xarray.DataArray([*CLOSURES, "chain"], dims="closure", name="closure"))
+    coefficients = xarray.DataArray(list(FRICTION), dims="friction_coefficient",
+                                    name="friction_coefficient", attrs=look.FRICTION)
+    closures = xarray.DataArray([*CLOSURES, "chain"], dims="closure", name="closure")
+    rows = [xarray.concat(ends[i:i + 3], coefficients) for i in (0, 3, 6)]
+    data = xarray.concat(rows, closures)
     return data.assign_attrs(width=width, scale=SCALE)
 
 
@@ -42,8 +41,7 @@ def edges() -> tuple:
 
 def chain_points(axes, data, times, c, words, until=SPAN[1]):
     """Draws averages of the chain as dots. Ahead of the pulse they are waves, not slip."""
-    one = data.sel(closure="chain", friction_coefficient=c).sel(x=slice(SPAN[0], until)).isel(
-        x=slice(None, None, 13))
+    one = data.sel(closure="chain", friction_coefficient=c, x=slice(SPAN[0], until))[::13]
     axes.plot(one["x"], times * one, **look.CHAIN, label=words)
 
 
@@ -85,8 +83,8 @@ def draw_scaled(data, factor) -> Figure:
 def scaled(runs, width, ratio_width) -> Picture:
     data = profiles(runs, "fig-08.toml", width)[["W"]].assign_attrs(width=width, scale=SCALE)
     peak = data["W"].max("x")
-    data["factor"] = (peak.isel(friction_coefficient=0)
-                      / peak).assign_attrs(about("peak of W at C = 0.1 over the peak at C"))
+    attrs = about("peak of W at C = 0.1 over the peak at C")
+    data["factor"] = (peak.isel(friction_coefficient=0) / peak).assign_attrs(attrs)
     by_paper = data["factor"].sel(closure="paper").values
     printed = [("factor at C = 0.5", "1.8", float(by_paper[1])),
                ("factor at C = 2", "5.2", float(by_paper[2]))]

@@ -16,8 +16,9 @@ VERDICTS = {"good": ("same", "confirmed", "exact"), "bad": ("refuted", "the pape
 
 def number(value) -> str:
     """Formats a computed number with four digits. Returns a text unchanged, and a dash for None."""
-    return "–" if value is None or value == "" else value if isinstance(value,
-                                                                        str) else f"{value:.4g}"
+    if value is None or value == "":
+        return "–"
+    return value if isinstance(value, str) else f"{value:.4g}"
 
 
 def table(heading, rows, numeric=(), verdict=None, name="") -> str:
@@ -35,8 +36,8 @@ def table(heading, rows, numeric=(), verdict=None, name="") -> str:
         below = f"<code>{html.escape(command)}</code>" if command.strip("-") else ""
         kind = " class=n" if i in numeric else ""
         if i == verdict:
-            known = [name
-                     for name, begins in VERDICTS.items() if content.lower().startswith(begins)]
+            first = content.lower().startswith
+            known = [name for name, begins in VERDICTS.items() if first(begins)]
             kind = f" class={[*known, 'open'][0]}"
         name = html.escape(heading[i])
         return f'<td{kind} data-name="{name}">{html.escape(str(content))}{below}</td>'

@@ -44,8 +44,8 @@ def mesh(drawn) -> dict | None:
     if values is None or not (numpy.allclose(corners[..., 0], across)
                               and numpy.allclose(corners[..., 1], up[:, None])):
         return None
-    values = numpy.ma.filled(numpy.ma.asarray(values, float), numpy.nan).reshape(len(up) - 1,
-                                                                                 len(across) - 1)
+    values = numpy.ma.filled(numpy.ma.asarray(values, float), numpy.nan)
+    values = values.reshape(len(up) - 1, len(across) - 1)
     rows, columns = thinned(len(up) - 1, CELLS), thinned(len(across) - 1, CELLS)
     middles = [(edges[1:] + edges[:-1]) / 2 for edges in (across, up)]
     return {"x": rounded(middles[0][columns]), "y": rounded(middles[1][rows]),

@@ -29,12 +29,12 @@ def surfaces(runs, what, case, key, values, places, dimension) -> xarray.Dataset
     wanted = [(case, {"friction.closure": closure, key: value}) for closure in CLOSURES
               for value in values]
     found = [surface(run, places) for run in runs.many(what, wanted)]
-    rows = [xarray.concat(found[i:i + len(values)],
-                          xarray.DataArray(list(values), dims=dimension.dims, name=dimension.name,
-                                           attrs=dimension.attrs))
+    axis = xarray.DataArray(list(values), dims=dimension.dims, name=dimension.name,
+                            attrs=dimension.attrs)
+    rows = [xarray.concat(found[i:i + len(values)], axis)
             for i in range(0, len(found), len(values))]
-    return xarray.Dataset({"W": xarray.concat(rows, xarray.DataArray(list(CLOSURES), dims="closure",
-                                                                     name="closure"))})
+    closures = xarray.DataArray(list(CLOSURES), dims="closure", name="closure")
+    return xarray.Dataset({"W": xarray.concat(rows, closures)})
 
 
 def draw_one(axes, W, top, title):

@@ -49,8 +49,7 @@ def ratios(runs) -> xarray.Dataset:
     return xarray.Dataset(
         {"slip_velocity_ratio": (axes, found["ratio"], attrs),
          "uncertainty": (axes, found["uncertainty"], about("largest relative error of the ratio")),
-         "chain": (("stress", "friction_coefficient"), chain, about("the ratio on the chain, which "
-                                                                    "knows no closure"))},
+         "chain": (axes[1:], chain, about("the ratio on the chain, which knows no closure"))},
         {"closure": list(CLOSURES), "stress": ("stress", list(STRESSES), look.STRESS),
          "friction_coefficient": ("friction_coefficient", COEFFICIENTS, look.FRICTION)},
         {"stress_right": 0.0, "scale": SCALE})
@@ -83,16 +82,16 @@ def friction(data, ratio) -> Picture:
     values = data["slip_velocity_ratio"].sel(closure="paper", stress=0.855)
     printed = [(f"ratio at C = {c:g}, Σ− = 0.855", f"{read:g}",
                 float(values.sel(friction_coefficient=c))) for c, read in zip(FRICTION, READ)]
-    kept = data.assign(
-        slip_velocity_ratio_smooth=ratio["smooth"].assign_attrs(width=ratio.attrs["width"],
-                                                                stress=0.855, stress_right=0.179))
-    shares = [float(data["slip_velocity_ratio"].sel(closure=closure, stress=stress,
-                                                    friction_coefficient=0.5))
-              for closure in CLOSURES for stress in (0.419, 0.855)]
-    return picture("fig-10",
-                   draw_ratios(data, ratio["smooth"].assign_attrs(width=ratio.attrs["width"])),
-                   kept, printed, width=ratio.attrs["width"], paper_low=shares[0],
-                   paper_high=shares[1], consistent_low=shares[2], consistent_high=shares[3])
+    width = ratio.attrs["width"]
+    smooth = ratio["smooth"].assign_attrs(width=width)
+    kept = data.assign(slip_velocity_ratio_smooth=smooth.assign_attrs(
+        stress=0.855, stress_right=0.179))
+    at = data["slip_velocity_ratio"].sel(friction_coefficient=0.5)
+    low, high = ({closure: float(at.sel(closure=closure, stress=stress)) for closure in CLOSURES}
+                 for stress in (0.419, 0.855))
+    return picture("fig-10", draw_ratios(data, smooth), kept, printed, width=width,
+                   paper_low=low["paper"], paper_high=high["paper"],
+                   consistent_low=low["consistent"], consistent_high=high["consistent"])
 
 
 def drops(runs, coefficient=0.1) -> xarray.Dataset:
@@ -144,8 +143,8 @@ def draw_drops(data) -> Figure:
 
 def against_drop(data) -> Picture:
     free = data["without_friction"].sel(stress=0.855)
-    share = (data["slip_velocity_at_origin"].sel(stress=0.855)
-             / data["slip_velocity_at_origin"].sel(stress=0.855, stress_drop=1.0))
+    W = data["slip_velocity_at_origin"].sel(stress=0.855)
+    share = W / W.sel(stress_drop=1.0)
     at = {closure: 100 * float(share.sel(stress_drop=0.35, closure=closure))
           for closure in CLOSURES}
     printed = [("W(0) at a drop of 35 % over that at 100 %, Σ− = 0.855", "1", at["paper"] / 100)]
