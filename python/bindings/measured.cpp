@@ -8,7 +8,6 @@
 
 slipfront::medium::Dimension dimension_named(const std::string& name) {
   using slipfront::medium::Dimension;
-  if (name == "length") return Dimension::length;
   if (name == "velocity") return Dimension::velocity;
   if (name == "pressure") return Dimension::pressure;
   if (name == "density") return Dimension::density;

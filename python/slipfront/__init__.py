@@ -25,6 +25,7 @@ from . import _accessor, medium, train
 from ._arrivals import arrivals
 from ._event import event
 from ._fronts import fronts
+from ._laboratory_events import laboratory_events
 from ._messages import shortened
 from ._population.laboratory import laboratory
 from ._population.hierarchy import population
@@ -59,7 +60,7 @@ class _Package(types.ModuleType):
 
 sys.modules[__name__].__class__ = _Package
 
-__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check",
-           "compare", "damping_number", "event", "friction_ratio", "fronts", "laboratory", "medium",
-           "moment_duration", "open", "plane", "population", "pulse", "relations", "riemann",
-           "sweep", "train"]
+__all__ = ["FileError", "InputError", "NumericsError", "__version__", "arrivals", "cases", "chain",
+           "check", "compare", "damping_number", "event", "friction_ratio", "fronts", "laboratory",
+           "laboratory_events", "medium", "moment_duration", "open", "plane", "population", "pulse",
+           "relations", "riemann", "sweep", "train"]

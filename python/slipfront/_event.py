@@ -93,11 +93,11 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     Parameters
     ----------
     events : path, text, dict, DataFrame or list of these, optional
-        A .toml, .csv or .fsp file, or its text (docs/events.md). A dict is nested like the TOML,
-        {"event": {...}, "medium": {...}}, or flat with the columns of a catalogue, {"name": ...,
-        "rupture_velocity": "3 km/s", ...}. The values of a flat dict are those of one event, or
-        lists of one length. A DataFrame has these columns. The default is the catalogue that comes
-        with slipfront.
+        A .toml or .csv file or a finite-fault model, or its text (docs/events.md). A dict is nested
+        like the TOML, {"event": {...}, "medium": {...}}, or flat with the columns of a catalogue,
+        {"name": ..., "rupture_velocity": "3 km/s", ...}. The values of a flat dict are those of one
+        event, or lists of one length. A DataFrame has these columns. The default is the catalogue
+        that comes with slipfront.
     p_wave_speed, poisson_ratio, shear_modulus : str or float, optional
         Elastic constants for events that give none, by default "6 km/s", 0.3 and "30 GPa".
     samples : int, optional

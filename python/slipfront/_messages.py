@@ -4,6 +4,8 @@ import contextlib
 import sys
 from collections.abc import Callable
 
+from . import _table
+
 DONE, INPUT, FILE, NUMERICS, INTERRUPTED = 0, 2, 3, 4, 130
 
 

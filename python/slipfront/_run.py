@@ -151,7 +151,7 @@ def plane(scenario, *, direct=False, set=None, output=None, resume=None, progres
     Parameters
     ----------
     scenario : path, str or dict
-        As in `pulse`, with the table [plane]. A finite-fault model (.fsp) is computed line by line.
+        As in `pulse`, with the table [plane]. A finite-fault model is computed line by line.
     direct : bool, optional
         Whether to follow every dislocation line, which needs chain.scale. By default, the averaged
         equations are solved.
@@ -433,11 +433,9 @@ def read(name, any_file=False, group=None, si=None):
         replaced = [new for old, new in names.items() if new != old]
         data = data.drop_vars(replaced, errors="ignore").rename(names)
     data.attrs = {name: value.item() if isinstance(value, np.generic) else value
-                  for name, value in data.attrs.items() if name != "checksum"}
+                  for name, value in data.attrs.items()}
     if data.attrs.get("finished") == 1 and data.sizes.get("time"):
         data = data.assign_attrs(_summary(data))
-    if "name" in data.coords and data["name"].dtype.kind == "S":
-        names = np.char.decode(data["name"].values, "utf-8")
-        data = data.assign_coords(name=(data["name"].dims, names, data["name"].attrs))
+    if "name" in data.coords:
         data = data.set_xindex("name")
     return data

@@ -13,7 +13,6 @@ FRAMES = 75
 #: modulus in Pa.
 ROCK = {"p_wave_speed": 6000.0, "poisson_ratio": 0.3, "shear_modulus": 30e9}
 
-
 #: Endings of finite-fault models, by which they differ from results.
 MODELS = (".fsp", ".srf", ".param", ".rupt", ".geojson")
 
@@ -58,7 +57,7 @@ def content_to_show(source, si=None, direct=False):
     from .plots import files
 
     shown = run(source, si,
-                direct) if source.lower().endswith((".toml", ".fsp")) else files.read(source, si)
+                direct) if source.lower().endswith((".toml", *MODELS)) else files.read(source, si)
     on_plane = is_plane(shown)
     is_pulse = {"W", "Sigma", "k",
                 "x_bounds"} <= set(shown.variables) and set(shown["k"].dims) == {"time", "x"}

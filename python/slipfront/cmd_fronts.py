@@ -16,6 +16,14 @@ COLUMNS = (("event", "front_event"), ("begin", "front_begin"), ("end", "front_en
 
 def arguments(argv):
     options = Arguments("fronts").parse_args(argv)
+    if (options.run is None) == (options.arrivals is None):
+        raise ValueError("RUN.nc: either a run or a table of arrivals is needed; "
+                         "allowed: RUN.nc, or --arrivals TABLE")
+    if options.columns and not options.arrivals:
+        raise ValueError("--columns: not for a run; allowed: with --arrivals")
+    for option in ("output", "threshold", "dimensionless"):
+        if options.arrivals and getattr(options, option):
+            raise ValueError(f"--{option}: not allowed with --arrivals; allowed: --csv or --json")
     if options.csv and (options.json or options.output):
         raise ValueError("--csv: not allowed with --json or -o")
     return options
@@ -100,11 +108,15 @@ def report_arrivals(options):
     elif options.json:
         found = [dict(zip(cells, row)) for row in zip(*cells.values())]
         for front in found:
-            front.update(velocity=known(front["velocity"]), velocity_interval=[known(end) for end in front["velocity_interval"]])
+            front.update(velocity=known(front["velocity"]),
+                         velocity_interval=[known(end) for end in front["velocity_interval"]])
         print(json.dumps({"file": options.arrivals, "fronts": found, "warnings": notes}))
     else:
-        put(table([["event", "", *map(cell, cells["event"])], ["begin", "m", *map(cell, cells["front_begin"])], ["end", "m", *map(cell, cells["front_end"])],
-                   ["V", "m/s", *map(cell, cells["velocity"])], *([f"{share} %", "m/s", *(cell(ends[i]) for ends in cells["velocity_interval"])] for i, share in enumerate((5, 95)))]))
+        low, high = zip(*cells["velocity_interval"])
+        columns = (("event", "", cells["event"]), ("begin", "m", cells["front_begin"]),
+                   ("end", "m", cells["front_end"]), ("V", "m/s", cells["velocity"]),
+                   ("5 %", "m/s", low), ("95 %", "m/s", high))
+        put(table([[title, unit, *map(cell, values)] for title, unit, values in columns]))
         if not options.quiet:
             for note in notes:
                 put(f"note: {note}")

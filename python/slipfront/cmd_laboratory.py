@@ -28,6 +28,14 @@ def interval(text):
 
 def arguments(argv):
     options = Arguments("laboratory").parse_args(argv)
+    ending = ".csv" if options.events else ".nc"
+    if options.output and not options.output.endswith(ending):
+        raise ValueError(f"-o {options.output}: unsupported file type; "
+                         f"allowed: a name that ends in {ending}")
+    if not options.events and (options.load_point or options.least_drop):
+        option = "--load-point" if options.load_point else "--least-drop"
+        raise ValueError(f"{option}: not without --events; "
+                         "allowed: with the record of an experiment")
     for option in ("prior", "scatter_prior"):
         try:
             setattr(options, option, interval(getattr(options, option)))
@@ -120,23 +128,32 @@ def report_events(options):
     from ._files import write_text
     from ._laboratory_events import cells_of, csv_of, laboratory_events
 
-    data = laboratory_events(options.table, columns=options.columns, normal_stress=options.normal_stress, least_drop=options.least_drop, load_point=options.load_point)
+    data = laboratory_events(options.table, columns=options.columns,
+                             normal_stress=options.normal_stress, least_drop=options.least_drop,
+                             load_point=options.load_point)
     titles, cells = cells_of(data)
     if options.output:
         write_text(options.output, csv_of(data))
     if options.json:
-        print(json.dumps({"file": options.output, **{name: data.attrs[name] for name in ("least_drop_pa", "displacement_is")}, "warnings": lines(data, "warnings"),
-                          "events": [{name: known(float(value)) for name, value in zip(data.data_vars, row)} for row in zip(*(v.values for v in data.data_vars.values()))]}))
+        rows = zip(*(variable.values for variable in data.data_vars.values()))
+        found = [{name: known(float(value)) for name, value in zip(data.data_vars, row)}
+                 for row in rows]
+        about = {name: data.attrs[name] for name in ("least_drop_pa", "displacement_is")}
+        print(json.dumps({"file": options.output, **about, "warnings": lines(data, "warnings"),
+                          "events": found}))
         return
     heads = [(title.partition(" [")[0], title.partition(" [")[2].rstrip("]")) for title in titles]
     columns = [["event", "", *(str(number) for number in data["event"].values)]]
-    columns += [[name, unit, *(row[i] or "-" for row in cells)] for i, (name, unit) in enumerate(heads)]
-    put("\n".join([table(columns), "", f"events    {len(cells)}, with drops of {data.attrs['least_drop_pa'] / 1e6:.3g} MPa and more"]))
+    columns += [[name, unit, *(row[i] or "-" for row in cells)]
+                for i, (name, unit) in enumerate(heads)]
+    put("\n".join([table(columns), "", f"events    {len(cells)}, with drops of "
+                   f"{data.attrs['least_drop_pa'] / 1e6:.3g} MPa and more"]))
     if not options.quiet:
         for warning in lines(data, "warnings"):
             put(f"note: {warning}")
         if options.output:
-            put(f"written to {options.output}: fill in front_velocity to use it with slipfront laboratory")
+            put(f"written to {options.output}: fill in front_velocity to use it with "
+                "slipfront laboratory")
 
 
 def main(argv) -> int:

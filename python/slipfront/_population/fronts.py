@@ -54,7 +54,7 @@ def _check_stresses(front, file):
                           f"it is {ratio:.3g} of the normal stress", "1e-9 to 1e9")
 
 
-def _text_of(table):
+def text_of(table):
     text, name, is_path = source(table, "table", "{'tau [MPa]': [1.2, 1.4], ...}")
     try:
         return (_slipfront.read_text(name) if is_path else text), name
@@ -80,7 +80,7 @@ def read(table, strict=False, columns=None, normal_stress=None):
 
     `normal_stress` is that of fronts without their own. Raises InputError if the header is unusable
     or no row can be read; if `strict`, also for one bad row."""
-    text, file = _text_of(table)
+    text, file = text_of(table)
     constant = None
     if normal_stress is not None:
         unit = "" if isinstance(normal_stress, str) else "Pa"

@@ -71,7 +71,8 @@ def plane(rupture, time: int = -1) -> Picture:
     rate, *spectrum = curves.subplots(1, 1 + has_spectrum, squeeze=False)[0]
     rate.plot(rupture["series_time"], rupture["moment_rate"])
     rate.axvline(float(rupture["time"][time]), color="0.5", linewidth=0.8, linestyle=":")
-    rate.set(xlabel=label(rupture["series_time"]), ylabel=label(rupture["moment_rate"], "moment rate"))
+    rate.set(xlabel=label(rupture["series_time"]),
+             ylabel=label(rupture["moment_rate"], "moment rate"))
     for axes in spectrum:
         draw_spectrum(axes, rupture)
     figure.suptitle(title_of(rupture))

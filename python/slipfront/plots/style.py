@@ -99,6 +99,11 @@ class TicksIn(AutoLocator):
         return super().tick_values(vmin / self.factor, vmax / self.factor) * self.factor
 
 
+def in_units_of(factor) -> Formatter:
+    """Returns the formatter of an axis in a unit that is `factor` times that of the axis."""
+    return FuncFormatter(lambda value, _: Formatter.fix_minus(f"{value / factor:.4g}"))
+
+
 def prefix_axes(figure) -> None:
     """Shows axes with an SI unit in one of suitable size, as in "position x, mm"."""
     for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
@@ -112,8 +117,7 @@ def prefix_axes(figure) -> None:
         if is_log:
             plain_numbers(axis, factor)
             continue
-        axis.set_major_formatter(
-            FuncFormatter(lambda value, _, factor=factor: f"{value / factor:.4g}"))
+        axis.set_major_formatter(in_units_of(factor))
         if math.log10(factor) % 1:
             axis.set_major_locator(TicksIn(factor))
 
@@ -256,5 +260,5 @@ def scaled(axis, variable, text, values) -> None:
     if power:
         factor, name = f"10{str(power).translate(POWERS)}", unit(variable)
         text = f"{text.removesuffix(name)}{factor} {name}" if name else f"{text}, {factor}"
-        axis.set_major_formatter(FuncFormatter(lambda value, _: Formatter.fix_minus(f"{value / 10.0**power:.4g}")))
+        axis.set_major_formatter(in_units_of(10.0**power))
     axis.set_label_text(text)
