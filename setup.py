@@ -1,7 +1,8 @@
-"""Builds slipfront with CMake and puts it into a wheel: Python package, library, program, scenarios and the explorer's page.
+"""Builds slipfront with CMake and puts it into a wheel: Python package, library, program, scenarios
+and the explorer's page.
 
-The folder slipfront of the wheel is the prefix of the installation. The environment variable CMAKE_ARGS has further
-options for CMake.
+The folder slipfront of the wheel is the prefix of the installation. The environment variable
+CMAKE_ARGS has further options for CMake.
 """
 
 import os
@@ -16,7 +17,8 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 source = Path(__file__).resolve().parent
-version = re.search(r"project\(slipfront VERSION ([\d.]+)", (source / "CMakeLists.txt").read_text()).group(1)
+version = re.search(r"project\(slipfront VERSION ([\d.]+)",
+                    (source / "CMakeLists.txt").read_text()).group(1)
 page = source / "apps/explorer/page"  # in an sdist, built
 
 
@@ -28,13 +30,16 @@ class CMakeBuild(build_ext):
             def cmake(*arguments):
                 subprocess.run(["cmake", *arguments], check=True)
 
-            cmake("-S", str(source), "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DSLIPFRONT_TESTS=OFF", "-DSLIPFRONT_BENCH=OFF",
-                  "-DSLIPFRONT_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}", "-DSLIPFRONT_PYTHON_DIR=..", "-DCMAKE_INSTALL_LIBDIR=lib",
-                  "-DSLIPFRONT_INTERPRETER=/usr/bin/python3", f"-DSLIPFRONT_PAGE={page}", *shlex.split(os.environ.get("CMAKE_ARGS", "")))
+            cmake("-S", str(source), "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                  "-DSLIPFRONT_TESTS=OFF", "-DSLIPFRONT_BENCH=OFF", "-DSLIPFRONT_PYTHON=ON",
+                  f"-DPython3_EXECUTABLE={sys.executable}", "-DSLIPFRONT_PYTHON_DIR=..",
+                  "-DCMAKE_INSTALL_LIBDIR=lib", "-DSLIPFRONT_INTERPRETER=/usr/bin/python3",
+                  f"-DSLIPFRONT_PAGE={page}", *shlex.split(os.environ.get("CMAKE_ARGS", "")))
             cmake("--build", build, *(["-j", str(self.parallel)] if self.parallel else []))
             for component in ("runtime", "python", "manual"):
-                cmake("--install", build, "--component", component, "--prefix", str(prefix), "--strip")
+                cmake("--install", build, "--component", component, "--prefix", str(prefix),
+                      "--strip")
 
 
-setup(version=version, packages=[], ext_modules=[Extension("slipfront._slipfront", sources=[])], scripts=["python/launcher/slipfront"],
-      cmdclass={"build_ext": CMakeBuild})
+setup(version=version, packages=[], ext_modules=[Extension("slipfront._slipfront", sources=[])],
+      scripts=["python/launcher/slipfront"], cmdclass={"build_ext": CMakeBuild})

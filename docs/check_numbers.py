@@ -311,7 +311,7 @@ ENTRIES = [
           lambda: [*numbers_on("claims.md", "The pulse with the consistent closure is within {} % of the chain in every row"), 2]),
     Entry("reproduction.md", "| seen at a fixed W | Refuted: {} % slower | | the leading edge | Refuted: {} % slower |",
           lambda: numbers_on("claims.md", "sees it: {} % slower on the chain") + numbers_on("claims.md", "Leading edge: {} % slower on the chain")),
-    Entry("../python/slipfront/reproduce/report.py", "within {} %, and the paper's closure is up to {} % above the chain (docs/claims.md)",
+    Entry("../python/slipfront/reproduce/glossary.toml", "within {} %, and the paper's closure is up to {} % above the chain (docs/claims.md)",
           lambda: numbers_on("claims.md", "The pulse with the consistent closure is within {} % of the chain in every row") +
           numbers_on("claims.md", "with the paper's closure is up to {} % above the chain")),
     Entry("start/seismologist.md", "slip velocity 0.5 m/s. The shear stress before the rupture is {} MPa", my_event("stress_pa")),

@@ -259,30 +259,6 @@ def stress_right(axes):
     axes.set(xlabel="stress drop, % of Σ−", ylabel="share of that at 100 %", title="Slip and slip velocity, against Σ+", ylim=(0, 1.05))
 
 
-def ratio_of_fronts():
-    say("## V- is always larger than V+")
-    say()
-    rows = relations("--stress", "0.05:50:60:log")
-    least = min(rows, key=lambda r: r["velocity_ratio"])
-    say("Without friction, |V- / V+| = K / E for a pulse into an empty interface:")
-    say()
-    picked = rows[::10] + [rows[-1]]
-    columns = {"stress": ".4g", "rupture_velocity": ".4g", "leading_velocity": ".4g", "velocity_ratio": ".4f"}
-    table(["Sigma-", "V-, c", "V+, c", "ratio"],
-          [[f"{r[key]:{digits}}" for key, digits in columns.items()] for r in picked])
-    say("Into a stressed side, V+ is the velocity of the first dislocations, which overtake others (closed form, Sigma- = 0.855):")
-    say()
-    shocks = []
-    for right in (0.05, 0.179, 0.4, 0.6, 0.8, 0.85):
-        exact = compare(stressed(right, SCALES[0]), (SCALES[0],))["closed-form"]
-        shocks.append((right, -exact["trailing_front"] / exact["leading_front"]))
-    table(["Sigma+"] + [f"{r:g}" for r, _ in shocks], [["V- / V+"] + [f"{q:.4f}" for _, q in shocks]])
-    verdict(f"The smallest ratio is {least['velocity_ratio']:.6f} into an empty interface (at Sigma- = {least['stress']:.3g}) and {min(q for _, q in shocks):.4f} into a "
-            "stressed one", least["velocity_ratio"] > 1 and min(q for _, q in shocks) > 1, "Sigma- = 0.05 to 50 into an empty interface, Sigma- = 0.855 into "
-            "Sigma+ = 0.05 to 0.85. The ratio tends to 1 in the dense limit and as the stress drop vanishes; there the paper's \"practically equal\" holds. Friction slows "
-            "only V+ (see above), so it raises the ratio")
-
-
 def stressed_side():
     say("## A stressed right side: shocks and phonons")
     say()
@@ -335,7 +311,6 @@ def page(axes):
     slip_velocity(runs, axes[1, 1])
     stress_left(axes[2, 0])
     stress_right(axes[2, 1])
-    ratio_of_fronts()
     stressed_side()
 
 

@@ -6,7 +6,10 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 #include "slipfront/description.hpp"
+#include "slipfront/text/quantity.hpp"
 
 namespace py = pybind11;
 
@@ -26,6 +29,9 @@ void bind_observations(py::module_& m);
 void bind_sweep(py::module_& m);
 void bind_keys(py::module_& m);
 void bind_files(py::module_& m);
+
+/// The dimension of this name: "length", "velocity", "pressure" or "density", and otherwise a ratio.
+slipfront::medium::Dimension dimension_named(const std::string& name);
 
 /// The tuple (name, long_name, dimensional_unit, reference).
 inline py::tuple described(const slipfront::Description& about) {

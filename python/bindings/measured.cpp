@@ -6,13 +6,8 @@
 #include "bindings.hpp"
 #include "slipfront/error.hpp"
 
-namespace {
-
-using namespace slipfront;
-using catalogue::MeasuredValue;
-using medium::Dimension;
-
-Dimension dimension_named(const std::string& name) {
+slipfront::medium::Dimension dimension_named(const std::string& name) {
+  using slipfront::medium::Dimension;
   if (name == "velocity") return Dimension::velocity;
   if (name == "pressure") return Dimension::pressure;
   if (name == "density") return Dimension::density;
@@ -20,6 +15,11 @@ Dimension dimension_named(const std::string& name) {
   if (name == "time") return Dimension::time;
   return Dimension::ratio;
 }
+
+namespace {
+
+using namespace slipfront;
+using catalogue::MeasuredValue;
 
 /// Position of a text, for its error: file, line (0 if there is none) and column.
 struct Position {
@@ -48,6 +48,18 @@ MeasuredValue parse(const std::string& text, const std::string& dimension, const
   return measured;
 }
 
+/// A single number in SI units of a text such as "30 GPa". `name` is that of the parameter, for the error.
+double quantity(const std::string& name, const std::string& text, const std::string& dimension) {
+  const medium::Dimension kind = dimension_named(dimension);
+  try {
+    const medium::Span span = medium::parse_quantity(text, kind, medium::si_unit(kind));
+    if (span.low == span.high) return span.low;
+  } catch (const InputError& error) {
+    throw_at({"", 0, name}, error.complaint());
+  }
+  throw_at({"", 0, name}, {.value = text, .problem = "a range", .allowed = "one number with its unit"});
+}
+
 [[noreturn]] void refuse(const std::string& file, std::size_t line, const std::string& column, const std::string& value,
                          const std::string& problem, const std::string& allowed) {
   throw InputError({.file = file, .line = line, .key = column, .value = value, .problem = problem, .allowed = allowed});
@@ -67,5 +79,6 @@ void bind_measured(py::module_& m) {
       .def("share_below", py::vectorize(&MeasuredValue::share_below))
       .def("likelihood", py::vectorize(&MeasuredValue::likelihood));
   m.def("parse_measured", parse);
+  m.def("quantity", quantity);
   m.def("refuse", refuse);
 }

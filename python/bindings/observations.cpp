@@ -116,14 +116,9 @@ py::list observations(const std::vector<Source>& sources, const std::array<std::
   return rows;
 }
 
-/// Median and deviation of the logarithm of a quantity as texts have it. `dimension` is "length", "pressure" or
-/// "ratio".
+/// Median and deviation of the logarithm of a quantity as texts have it.
 std::pair<double, double> measured(const std::string& text, const std::string& dimension, const std::string& unit) {
-  using medium::Dimension;
-  const Dimension kind = dimension == "length"     ? Dimension::length
-                         : dimension == "pressure" ? Dimension::pressure
-                                                   : Dimension::ratio;
-  const MeasuredValue value = catalogue::parse_measured(text, kind, unit);
+  const MeasuredValue value = catalogue::parse_measured(text, dimension_named(dimension), unit);
   if (!(value.low > 0)) throw InputError({.value = text, .problem = "not positive", .allowed = "> 0"});
   return logarithm_of(value);
 }

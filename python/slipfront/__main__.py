@@ -1,7 +1,9 @@
-"""Runs the command line: `python3 -m slipfront NAME ARGS...`. It hands the subcommands that are written in C++ to the program.
+"""Runs the command line: `python3 -m slipfront NAME ARGS...`. It hands the subcommands that are
+written in C++ to the program.
 
-Each subcommand in Python is a module cmd_NAME.py with a function `main(argv) -> int`, where argv are the arguments after the name. An
-error that it raises becomes one line on stderr and an exit code.
+Each subcommand in Python is a module cmd_NAME.py with a function `main(argv) -> int`, where argv
+are the arguments after the name. An error that it raises becomes one line on stderr and an exit
+code.
 """
 
 import atexit
@@ -17,8 +19,7 @@ NAMES = ("sweep", "fronts", "laboratory", "population", "reproduce", "plot", "an
 
 
 def interrupted(_signal, _frame):
-    """Handles Ctrl-C and the other signals that end the program. It raises KeyboardInterrupt; a second signal ends the program at
-    once."""
+    """Handles the first signal that ends the program; a second one ends it at once."""
     Interruption.seen = True
     for number in ENDING:
         signal.signal(number, lambda *_: os._exit(INTERRUPTED))
@@ -28,15 +29,13 @@ def interrupted(_signal, _frame):
 
 
 def end_now(*_):
-    """Ends the program one second after an interruption, if it still runs. Some code may be waiting, or the exception was lost
-    where Python cannot raise it."""
+    """Ends the program a second after an interruption that the running code has not heeded."""
     undo_unfinished()
     os.write(2, f"slipfront: interrupted{Interruption.advice()}\n".encode("utf-8", "replace"))
     os._exit(INTERRUPTED)
 
 
 def undo_unfinished():
-    """Removes files that are only written in part."""
     from ._files import UNFINISHED
 
     for undo in list(UNFINISHED):
@@ -44,7 +43,7 @@ def undo_unfinished():
 
 
 def end(code):
-    """Ends the program. It first ignores all signals, because one that arrives while the interpreter ends would kill the process."""
+    """Ends the program, and ignores signals, which would kill an ending interpreter."""
     signal.alarm(0)
     for number in ENDING:
         signal.signal(number, signal.SIG_IGN)
@@ -98,7 +97,6 @@ def _run(name, argv):
 
 
 def _code_of(error, name, numerics_error):
-    """Prints an error as one line, and returns its exit code."""
     try:
         raise error
     except (numerics_error, MemoryError) as error:
@@ -118,7 +116,7 @@ def _code_of(error, name, numerics_error):
 
 
 def become_program(argv):
-    """Becomes the program slipfront with these arguments. Returns an exit code if the program is missing."""
+    """Becomes the program slipfront. Returns an exit code if the program is missing."""
     package = pathlib.Path(__file__).parent
     # In a wheel, in the build tree, and where CMake or a Debian package installs it.
     for folder in (package, package.parents[1], package.parents[3]):
@@ -126,7 +124,8 @@ def become_program(argv):
         if program.is_file():
             os.environ["SLIPFRONT_PYTHON"] = sys.executable
             os.execv(program, ["slipfront", *argv])
-    complain("the program slipfront is missing beside its Python package; install the Debian package slipfront")
+    complain("the program slipfront is missing beside its Python package; install the Debian "
+             "package slipfront")
     return FILE
 
 
@@ -137,7 +136,8 @@ def main():
     code = run(sys.argv[1], sys.argv[2:])
     try:
         sys.stdout.flush()
-    except OSError as error:  # a closed pipe: without devnull, the interpreter would report it again at its end
+    # A closed pipe: without devnull, the interpreter would report it again at its end
+    except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         complain(f"stdout: {error.strerror}")
         return FILE

@@ -2,11 +2,15 @@
 
 import argparse
 import os
+import pathlib
 import sys
 import textwrap
+import tomllib
 
 from . import _table
 from ._slipfront import printable, require_other_file, sensible_threads
+
+COMMANDS = pathlib.Path(__file__).with_name("commands.toml")
 
 
 class Help(argparse.HelpFormatter):
@@ -15,47 +19,57 @@ class Help(argparse.HelpFormatter):
     def _fill_text(self, text, width, indent):
         if not text.startswith("Examples:"):
             return super()._fill_text(text, width, indent)
-        lines = (textwrap.wrap(line, width, initial_indent="  " * (i > 0), subsequent_indent=" " * 6,
-                               break_long_words=False, break_on_hyphens=False)
+        lines = (textwrap.wrap(line, width, initial_indent="  " * (i > 0), subsequent_indent=" "
+                               * 6, break_long_words=False, break_on_hyphens=False)
                  for i, line in enumerate(text.splitlines()))
         return "\n".join(" \\\n".join(parts) for parts in lines)
 
 
 class Arguments(argparse.ArgumentParser):
-    """A parser whose errors are one line (ValueError: exit code 2), with the options that every subcommand takes."""
+    """The parser of a command, by commands.toml. Its errors are one line: ValueError."""
 
-    def __init__(self, name, description, examples):
-        super().__init__(prog=f"slipfront {name}", description=description, allow_abbrev=False,
-                         epilog="\n".join(["Examples:", *examples]), formatter_class=Help)
-        self.add_argument("--json", action="store_true", help="one JSON object on stdout, nothing else")
+    def __init__(self, name):
+        about = tomllib.loads(COMMANDS.read_text(encoding="utf-8"))[name]
+        super().__init__(prog=f"slipfront {name}", description=about["description"],
+                         epilog="\n".join(["Examples:", *about["examples"]]),
+                         formatter_class=Help, allow_abbrev=False)
+        self.add_argument("--json", action="store_true",
+                          help="one JSON object on stdout, nothing else")
         self.add_argument("--quiet", action="store_true", help="no notes, no progress")
-        self.add_argument("--wide", action="store_true", help="all columns side by side (default: what fits the terminal)")
-        self.add_argument("--threads", type=threads, default=len(os.sched_getaffinity(0)), metavar="N",
+        self.add_argument("--wide", action="store_true",
+                          help="all columns side by side (default: what fits the terminal)")
+        self.add_argument("--threads", type=threads, default=len(os.sched_getaffinity(0)),
+                          metavar="N",
                           help="threads; results do not depend on it (default: all cores)")
+        for flags, option in about["option"].items():
+            if flags == "--si --dimensionless":
+                self.add_units(**option)
+                continue
+            if "type" in option:
+                option["type"] = TYPES[option["type"]]
+            self.add_argument(*flags.split(), **option)
+
+    def add_units(self, default="default if the scenario has values with units outside of "
+                  "[medium]"):
+        units = self.add_mutually_exclusive_group()
+        units.add_argument("--si", action="store_true", help=f"results in SI units ({default})")
+        units.add_argument("--dimensionless", action="store_true",
+                           help="results in the units of the model (default otherwise)")
 
     def parse_args(self, args=None, namespace=None):
-        """Parses the words, and refuses to write to a file that another word names. A sweep may write to the file from which it resumes."""
+        """Parses the words. Refuses an output that another word but --resume names."""
         options = super().parse_args(args, namespace)
         _table.Lines.whole = options.wide
         if output := getattr(options, "output", None):
-            words = [value for name, value in vars(options).items() if name not in ("output", "resume")]
-            require_other_file(os.fsencode(output), [os.fsencode(text) for value in words for text in (value if isinstance(value, list) else [value]) if isinstance(text, str)])
+            words = [value for name, value in vars(options).items()
+                     if name not in ("output", "resume")]
+            words += [word for value in words if isinstance(value, list) for word in value]
+            files = [os.fsencode(word) for word in words if isinstance(word, str)]
+            require_other_file(os.fsencode(output), files)
         return options
 
     def error(self, message):
         raise ValueError(f"{message}; see {self.prog} --help")
-
-
-def add_columns(parser):
-    """Adds --columns."""
-    parser.add_argument("--columns", metavar="MAP.toml", help="TOML file that states what the columns of a table mean, as for slipfront event; slipfront columns makes one")
-
-
-def add_units(parser, default="default if the scenario has values with units outside of [medium]"):
-    """Adds --si and --dimensionless."""
-    units = parser.add_mutually_exclusive_group()
-    units.add_argument("--si", action="store_true", help=f"results in SI units ({default})")
-    units.add_argument("--dimensionless", action="store_true", help="results in the units of the model (default otherwise)")
 
 
 def chosen_units(options):
@@ -64,16 +78,15 @@ def chosen_units(options):
 
 
 def file_name(text):
-    """The name of a file or folder to write."""
     if not text:
         raise argparse.ArgumentTypeError("the file name is empty")
     return text
 
 
 def netcdf_name(text):
-    """The name of a NetCDF file."""
     if not file_name(text).endswith(".nc"):
-        raise argparse.ArgumentTypeError(f"{text}: unsupported file type; allowed: a name that ends in .nc")
+        raise argparse.ArgumentTypeError(f"{text}: unsupported file type; allowed: a name that "
+                                         "ends in .nc")
     return text
 
 
@@ -83,13 +96,27 @@ def put(text):
 
 
 def threads(text):
-    """A number of threads."""
     if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 4096:
         raise argparse.ArgumentTypeError(f"'{text}' is no number of threads; allowed: 1 to 4096")
     return sensible_threads(int(text))
 
 
+def whole(text):
+    if not text.isascii() or not text.isdigit():
+        raise argparse.ArgumentTypeError(f"'{text}' is no whole number; "
+                                         "allowed: digits only, such as 1000")
+    return int(text)
+
+
+def names(text):
+    return text.split(",")
+
+
+TYPES = {"file_name": file_name, "float": float, "int": int, "names": names,
+         "netcdf_name": netcdf_name, "whole": whole}
+
+
 def progress(options, text):
-    """One line on stderr that the next one overwrites; only on a terminal, and not with --quiet. An empty text wipes it."""
+    """Shows a line on a terminal's stderr that the next one overwrites. "" wipes it."""
     if sys.stderr.isatty() and not options.quiet:
         print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)

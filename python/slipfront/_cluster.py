@@ -15,15 +15,17 @@ _tries = 3
 def run_points(command, request, work, variables, threads, deliver):
     """Runs `work`, [(point, overrides), ...], on threads without the GIL.
 
-    Calls deliver([(point, numbers, reason), ...]) in this thread several times a second. The results come in any order.
+    Calls deliver([(point, numbers, reason), ...]) in this thread several times a second. The
+    results come in any order.
     """
     numbers = [point for point, _ in work]
-    _slipfront.sweep(command, request, [overrides for _, overrides in work], variables, min(threads, len(work)),
-                     lambda rows: deliver([(numbers[i], values, reason) for i, values, reason in rows]))
+    _slipfront.sweep(command, request, [overrides for _, overrides in work], variables,
+                     min(threads, len(work)), lambda rows: deliver([(numbers[i], values, reason)
+                                                                    for i, values, reason in rows]))
 
 
 def _task(packed):
-    """Runs points on a worker. Points and results are sent as bytes, because Dask would search every text in them."""
+    """Runs points on a worker. It takes and returns bytes: Dask would search every text."""
     command, request, work, variables = pickle.loads(packed)
     rows: list[tuple] = []
     run_points(command, request, work, variables, 1, rows.extend)
@@ -31,10 +33,11 @@ def _task(packed):
 
 
 def _parts(work, threads):
-    """Divides `work` into tasks of decreasing size, so that there are few messages and the workers end at the same time."""
+    """Divides `work` into tasks of decreasing size: few messages, and workers end together."""
     parts, begin, least = [], 0, max(1, len(work) // (_most_tasks_a_thread * threads))
     while begin < len(work):
-        size = max(least, min(_most_points_a_task, (len(work) - begin) // (_tasks_a_thread * threads)))
+        size = max(least,
+                   min(_most_points_a_task, (len(work) - begin) // (_tasks_a_thread * threads)))
         parts.append(work[begin:begin + size])
         begin += size
     return parts
@@ -43,8 +46,9 @@ def _parts(work, threads):
 def on_cluster(client, command, request, work, variables, deliver):
     """Like run_points, but on a cluster, in tasks of many points.
 
-    If the worker of a task dies, Dask tries the task again. Then we submit its points one by one, so that a point that
-    crashes its worker does not affect the others. Raises NumericsError if the connection to the cluster is lost.
+    If the worker of a task dies, Dask tries the task again. Then we submit its points one by one,
+    so that a point that crashes its worker does not affect the others. Raises NumericsError if the
+    connection to the cluster is lost.
     """
     distributed = import_optional("distributed")
     if not isinstance(client, distributed.Client):
@@ -53,7 +57,8 @@ def on_cluster(client, command, request, work, variables, deliver):
     threads = sum(client.nthreads().values()) or 1
 
     def submit(part):
-        future = client.submit(_task, pickle.dumps((command, request, part, variables)), pure=False, retries=_tries)
+        future = client.submit(_task, pickle.dumps((command, request, part, variables)), pure=False,
+                               retries=_tries)
         parts[future.key] = part
         return future
 
@@ -65,7 +70,9 @@ def on_cluster(client, command, request, work, variables, deliver):
             try:
                 rows = pickle.loads(future.result())
             except gone as error:
-                raise NumericsError(f"the Dask cluster is gone: {' '.join(str(error).split()) or type(error).__name__}") from error
+                raise NumericsError(
+                    "the Dask cluster is gone: "
+                    f"{' '.join(str(error).split()) or type(error).__name__}") from error
             except Exception as error:
                 if len(part) > 1:
                     for one in part:

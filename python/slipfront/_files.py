@@ -1,4 +1,4 @@
-"""Writes files with the code of the program (src/system/files). A file is written completely, or not at all."""
+"""Writes files with the code of the program: completely, or not at all."""
 
 import contextlib
 import numbers as kinds
@@ -9,7 +9,8 @@ from collections.abc import Callable
 from . import _slipfront
 from ._optional import import_optional
 
-#: Functions that remove files that are only written in part. A program that must end at once calls them. They may be called twice.
+#: Functions that remove files that are only written in part. A program that must end at once calls
+#: them. They may be called twice.
 UNFINISHED: set[Callable[[], object]] = set()
 
 
@@ -32,27 +33,29 @@ def _attribute(value):
 
 
 def _values(array):
-    """Returns the values as the bindings accept them: a flat array of float64, int64 or int8, or a list of texts."""
+    """Returns values as the bindings take them: flat float64, int64 or int8, or a list of texts."""
     if array.dtype.kind in "OUS":
         return [str(text) for text in array.ravel().tolist()]
-    kind = "int8" if array.dtype.name == "int8" else {"f": "float64", "i": "int64", "u": "int64"}[array.dtype.kind]
+    kind = "int8" if array.dtype.name == "int8" else {"f": "float64", "i": "int64",
+                                                      "u": "int64"}[array.dtype.kind]
     return array.astype(kind).ravel()
 
 
 def write_dataset(data, path):
-    """Writes an xarray.Dataset as NetCDF. xarray encodes it by the CF conventions. Raises FileError with the path and the reason."""
+    """Writes a Dataset as NetCDF, encoded by the CF conventions. Raises FileError."""
     conventions = import_optional("xarray.conventions")
     variables, attributes = conventions.cf_encoder(*conventions.encode_dataset_coordinates(data))
-    sizes = {name: size for variable in variables.values() for name, size in zip(variable.dims, variable.shape)}
+    sizes = {name: size for variable in variables.values()
+             for name, size in zip(variable.dims, variable.shape)}
     _slipfront.write_dataset(os.fsencode(path), list(sizes.items()),
-                             [(name, list(variable.dims), _values(variable.values), [(key, _attribute(value)) for key, value in variable.attrs.items()])
+                             [(name, list(variable.dims), _values(variable.values),
+                               [(key, _attribute(value)) for key, value in variable.attrs.items()])
                               for name, variable in variables.items()],
                              [(name, _attribute(value)) for name, value in attributes.items()])
 
 
 def isolated(path, make):
-    """Returns the bytes that make() returns. Calls it in a fork of this process, because drawing libraries can crash when memory
-    runs out. Raises FileError."""
+    """Returns the bytes of make(), called in a fork: drawing libraries crash without memory."""
     with told_of(path):
         return _of_fork(path, make)
 
@@ -73,12 +76,13 @@ def _of_fork(path, make):
         os.close(reader)
     if status or reply[:1] != b"d":
         reason = "" if status else " ".join(reply[1:].decode().split())
-        raise _slipfront.FileError(f"{path}: cannot be written: {reason or 'the drawing library crashed'}")
+        raise _slipfront.FileError(f"{path}: cannot be written: "
+                                   f"{reason or 'the drawing library crashed'}")
     return reply[1:]
 
 
 def _live_as_fork(reader, writer, make):
-    """Runs the fork: sends the result of make(), or the reason of its failure. The exit status is 0 only if everything was sent."""
+    """Sends the result of make(), or why it failed. The exit status is 0 if all was sent."""
     unsent = 1
     try:
         os.close(reader)
@@ -95,10 +99,11 @@ def _live_as_fork(reader, writer, make):
 
 @contextlib.contextmanager
 def told_of(path):
-    """Context manager that turns an OSError into a FileError with the name of the file, which is `path` unless the error has one."""
+    """Turns an OSError into a FileError with the name of the file, by default `path`."""
     try:
         yield
     except _slipfront.FileError:
         raise
     except OSError as error:
-        raise _slipfront.FileError(f"{error.filename or path}: {error.strerror or error}") from error
+        raise _slipfront.FileError(
+            f"{error.filename or path}: {error.strerror or error}") from error

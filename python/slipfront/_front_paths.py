@@ -1,27 +1,31 @@
-"""Paths of fronts: from the times at which slip arrives at evenly spaced positions to fronts and their velocities. Pure functions of arrays."""
+"""Paths and velocities of fronts, from the arrivals of slip at evenly spaced positions."""
 
 import math
 
 from ._numbers import np
 
-#: A local velocity is fitted through as many positions as this to either side of a position, if arrivals were recorded at each step.
+#: A local velocity is fitted through as many positions as this to either side of a position, if
+#: arrivals were recorded at each step.
 HALF_WINDOW = 3
 
-#: The same if arrivals come from outputs. They show a front to a cell, so a few cells would show how many of them it crosses between most outputs.
+#: The same if arrivals come from outputs. They show a front to a cell, so a few cells would show
+#: how many of them it crosses between most outputs.
 HALF_WINDOW_OF_OUTPUTS = 20
 
 
 def _share(row, inside, outside, level):
-    """Returns where between two positions `row` falls to `level`: 0 at `inside`, 1 at `outside`. It is 0.5 where the pulse has passed `inside` already."""
+    """Returns where `row` falls to `level`, from 0 at `inside` to 1 at `outside`, or else 0.5."""
     drop = row[inside] - row[outside]
     return (row[inside] - level) / drop if row[inside] > level and drop > 0 else 0.5
 
 
 def arrivals(times, speed, level):
-    """Returns the time at which each column of speed[time, position] first exceeds `level`, and NaN where it never does.
+    """Returns the time at which each column of speed[time, position] first exceeds `level`, and NaN
+    where it never does.
 
-    A front crosses several positions between two output times. It is taken to move at a constant velocity from where it was to where it is; both are
-    read between positions. Where slip begins between two outputs, all positions have the time of the later one."""
+    A front crosses several positions between two output times. It is taken to move at a constant
+    velocity from where it was to where it is; both are read between positions. Where slip begins
+    between two outputs, all positions have the time of the later one."""
     found = np.full(speed.shape[1], np.nan)
     for now in range(len(times)):
         before = np.isfinite(found)
@@ -34,7 +38,8 @@ def arrivals(times, speed, level):
                     beyond = (last if step > 0 else first) + step
                     start = _share(speed[now - 1], inside, inside + step, level) - 1
                     reached = 0 <= beyond < before.size and not before[beyond]
-                    end = last - first + (_share(speed[now], beyond - step, beyond, level) if reached else 0.0)
+                    end = last - first + (_share(speed[now], beyond - step, beyond, level)
+                                          if reached else 0.0)
                     sides.append((ahead - start) / max(end - start, 1e-9))
             if not sides:
                 found[along] = times[now]
@@ -45,8 +50,7 @@ def arrivals(times, speed, level):
 
 
 def _turns(times, tolerance):
-    """Returns the indices at which arrival times, which begin at their minimum, turn by more than `tolerance`: an end of a front, a start of the next, and so on.
-    The last index is the last of `times`."""
+    """Returns the indices at which arrival times turn by more than `tolerance`, and the last."""
     found, rising, extreme = [], True, 0
     for i in range(1, len(times)):
         sign = 1 if rising else -1
@@ -66,7 +70,7 @@ def _runs(times):
 
 
 def _source(times, first, last):
-    """Returns the ends of the longest stretch in which slip begins at once. If that is everywhere, slip has one front, from the left."""
+    """Returns the ends of the longest stretch that slips at once; of all, the left end twice."""
     begins = times[first:last + 1] == np.min(times[first:last + 1])
     if begins.all():
         return first, first
@@ -75,8 +79,10 @@ def _source(times, first, last):
 
 
 def fronts_of(times, tolerance):
-    """Returns (begin, end) indices of each front: slip begins at a local minimum of the arrival times, which may be a stretch, and spreads from there until the arrival times fall by
-    more than `tolerance`, where another front comes to meet it, or until a position that slip does not reach. A single position is (i, i)."""
+    """Returns (begin, end) indices of each front: slip begins at a local minimum of the arrival
+    times, which may be a stretch, and spreads from there until the arrival times fall by more than
+    `tolerance`, where another front comes to meet it, or until a position that slip does not reach.
+    A single position is (i, i)."""
     found = []
     for first, last in _runs(times):
         left, right = _source(times, first, last)
@@ -92,21 +98,22 @@ def fronts_of(times, tolerance):
 
 
 def _slope(x, y):
-    """Returns the median of the slopes of all pairs of points (Theil and Sen): a bad point has no effect."""
+    """Returns the median slope of all pairs of points (Theil and Sen)."""
     first, second = np.triu_indices(len(x), 1)
     return float(np.median((y[second] - y[first]) / (x[second] - x[first])))
 
 
 def begin_of_motion(times, path):
-    """Returns the index in the path from which arrivals show a velocity: positions that slip before the first output that shows any all have its time."""
+    """Returns the index in a path after the positions that had slipped at the first output."""
     tied = np.flatnonzero(times[path] != times[path[0]])
     start = int(tied[0]) - 1 if tied.size else 0
     return start if path.size - start >= 3 else 0
 
 
 def velocities(x, times, begin, end, half_window=HALF_WINDOW):
-    """Returns the indices of a front in its direction, and its velocity at each of them: infinite where slip arrives everywhere at once, NaN if the front has
-    fewer than three positions. The slope of time against position is fitted, because arrival times have the errors."""
+    """Returns the indices of a front in its direction, and its velocity at each of them: infinite
+    where slip arrives everywhere at once, NaN if the front has fewer than three positions. The
+    slope of time against position is fitted, because arrival times have the errors."""
     step = 1 if end >= begin else -1
     path = np.arange(begin, end + step, step)
     found = np.full(path.size, math.nan)
@@ -121,8 +128,9 @@ def velocities(x, times, begin, end, half_window=HALF_WINDOW):
 
 
 def rayleigh_speed(poisson_ratio):
-    """Returns the speed of Rayleigh waves over the speed c of the model, c_s (2 / (1 - nu))^(1/2). The square r of Rayleigh over S-wave speed is the root of
-    r^3 - 8 r^2 + (24 - 16 k) r - 16 (1 - k) between 0 and 1, with k = (c_s / c_p)^2."""
+    """Returns the speed of Rayleigh waves over the speed c of the model, c_s (2 / (1 - nu))^(1/2).
+    The square r of Rayleigh over S-wave speed is the root of r^3 - 8 r^2 + (24 - 16 k) r - 16 (1 -
+    k) between 0 and 1, with k = (c_s / c_p)^2."""
     k = (1 - 2 * poisson_ratio) / (2 - 2 * poisson_ratio)
     roots = np.roots([1, -8, 24 - 16 * k, -16 * (1 - k)])
     r = min(root.real for root in roots if abs(root.imag) < 1e-9 and 0 < root.real < 1)

@@ -13,21 +13,24 @@ _truths = {"true": True, "false": False}
 
 
 def values_of(text, kind):
-    """Returns the values of a list such as `0.1,0.5` or `0:2:9`. `kind` is the type of the key as in `slipfront keys`.
+    """Returns the values of a list such as `0.1,0.5` or `0:2:9`. `kind` is the type of the key as
+    in `slipfront keys`.
 
     Raises ValueError with the values that are allowed."""
     values = [value for part in _parts(text) for value in _values(part.strip(), kind)]
     if kind != "number":  # a quantity without a unit is in SI units
         return values
-    with_unit = next((value for value in values if isinstance(value, str) and QUANTITY.fullmatch(value)), None)
+    with_unit = next((value for value in values
+                      if isinstance(value, str) and QUANTITY.fullmatch(value)), None)
     without = next((value for value in values if isinstance(value, float) and value != 0), None)
     if with_unit and without:
-        raise ValueError(f"{without!r} has no unit, but {with_unit} has one; allowed: a unit after each value, as in 1 MPa,3 MPa, or after none")
+        raise ValueError(f"{without!r} has no unit, but {with_unit} has one; allowed: a unit after "
+                         "each value, as in 1 MPa,3 MPa, or after none")
     return values
 
 
 def _parts(text):
-    """Splits a text at the commas that are outside of brackets. A formula may have commas inside of them."""
+    """Splits a text at the commas outside of brackets, which a formula may have."""
     parts, depth = [""], 0
     for character in text:
         depth += (character in "([{") - (character in ")]}")
@@ -40,23 +43,27 @@ def _parts(text):
 
 def _values(part, kind):
     if not part:
-        raise ValueError("a value is empty; allowed: values with a comma between them, such as 0.1,0.5,2")
+        raise ValueError("a value is empty; allowed: values with a comma between them, such as "
+                         "0.1,0.5,2")
     found = _range.fullmatch(part)
     if found:
         first, last, count, logarithmic, unit = found.groups()
         numbers = _between(float(first), float(last), float(count), bool(logarithmic))
-        return [f"{number!r} {unit.strip()}" for number in numbers] if unit else [_one(repr(number), kind, rounds=True) for number in numbers]
+        return ([f"{number!r} {unit.strip()}" for number in numbers] if unit
+                else [_one(repr(number), kind, rounds=True) for number in numbers])
     if kind in ("number", "whole number", "quantity") and ":" in part:
-        raise ValueError(f"'{part}': not a range; allowed: first:last:count or first:last:count:log, such as 0:2:9 or 0.1:10:5:log")
+        raise ValueError(f"'{part}': not a range; allowed: first:last:count or "
+                         "first:last:count:log, such as 0:2:9 or 0.1:10:5:log")
     return [_one(part, kind)]
 
 
 def _between(first, last, count, logarithmic):
-    """Returns the numbers of a range. They are equal to those of `slipfront relations --stress first:last:count`."""
+    """Returns the numbers of a range, equal to those of `slipfront relations`."""
     if not (math.isfinite(first) and math.isfinite(last)):
         raise ValueError("an end of a range is not finite; allowed: finite numbers")
     if not 1 <= count <= _most_values or count % 1:
-        raise ValueError(f"a range of {count:.15g} values; allowed: a whole number from 1 to {_most_values}")
+        raise ValueError(f"a range of {count:.15g} values; allowed: a whole number from 1 to "
+                         f"{_most_values}")
     if logarithmic and not (first > 0 and last > 0):
         raise ValueError("a logarithmic range has an end that is not positive; allowed: ends > 0")
 
@@ -65,12 +72,12 @@ def _between(first, last, count, logarithmic):
             return math.exp(math.log(first) * (1 - share) + math.log(last) * share)
         return first * (1 - share) + last * share
 
-    return [first, *(at(i / (count - 1)) for i in range(1, int(count) - 1)), *([last] if count > 1 else [])]
+    return [first, *(at(i / (count - 1)) for i in range(1, int(count) - 1)),
+            *([last] if count > 1 else [])]
 
 
 def _one(text, kind, rounds=False):
-    """Returns a value as a number or a truth value if the key has that type, and otherwise as text. `rounds` rounds the values
-    of a range for keys of whole numbers."""
+    """Returns a value by the type of its key. `rounds` rounds it for a key of whole numbers."""
     if kind == "truth value":
         return _truths.get(text, text)
     if kind not in ("number", "whole number", "quantity") or not re.fullmatch(NUMBER, text):

@@ -7,9 +7,9 @@ import math
 
 from . import _slipfront
 from ._dataset import dataset
+from ._messages import shown
 from ._number_table import Quantity, read_numbers
 from ._numbers import np
-from ._shown import shown
 from ._slipfront import InputError
 
 QUANTITIES = {

@@ -9,9 +9,9 @@ from typing import Any
 
 from . import _slipfront
 from ._event import column_map
-from ._laboratory_table import text_of
+from ._messages import shown
 from ._numbers import np
-from ._shown import shown
+from ._population.fronts import text_of
 from ._slipfront import InputError
 
 #: Words that are no part of the name of a quantity.

@@ -4,14 +4,14 @@ import os
 
 from . import _slipfront
 from ._optional import import_optional
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError
 
 np = import_optional("numpy")
 
 
 def numbers(name, values):
-    """`values` as an array of doubles, copied only where it is none. Raises InputError unless it holds real numbers."""
+    """Returns real numbers as an array of doubles, copied only if need be. Raises InputError."""
     if np.ma.is_masked(values):
         raise InputError(f"{name}: some of it is masked; allowed: numbers")
     try:
@@ -43,8 +43,7 @@ def broadcasting(**given):
 
 
 def dimensions(values, array):
-    """Names of the dimensions of a result that has the shape of `values`, and its coordinates: those of a DataArray,
-    else "state" or dim_0, dim_1, ..."""
+    """Returns dimensions and coordinates of a DataArray; else "state" or dim_0, dim_1, ..."""
     if hasattr(values, "dims") and hasattr(values, "coords"):
         return values.dims, dict(values.coords)
     return (("state",) if array.ndim == 1 else tuple(f"dim_{i}" for i in range(array.ndim))), {}
@@ -53,13 +52,15 @@ def dimensions(values, array):
 def flat(**given):
     """The arguments as arrays of one shape, flat; that shape; and the names of its dimensions."""
     arrays = np.broadcast_arrays(*broadcasting(**given))
-    named = [values for values in given.values() if hasattr(values, "dims") and np.shape(values) == arrays[0].shape]
+    named = [values for values in given.values()
+             if hasattr(values, "dims") and np.shape(values) == arrays[0].shape]
     dims, coords = dimensions(named[0] if named else None, arrays[0])
-    return [np.ascontiguousarray(array).reshape(-1) for array in arrays], arrays[0].shape, dims, coords
+    return [np.ascontiguousarray(array).reshape(-1)
+            for array in arrays], arrays[0].shape, dims, coords
 
 
 def past_nan(call, *arrays, instead):
-    """Columns that call(*arrays) gives; NaN where an array is NaN, which `call` refuses: it gets `instead` there."""
+    """Returns the columns of call(*arrays), with NaN where an array is, called with `instead`."""
     missing = np.isnan(arrays).any(axis=0)
     columns = call(*(np.where(missing, other, array) for array, other in zip(arrays, instead)))
     for column in columns:
@@ -67,10 +68,18 @@ def past_nan(call, *arrays, instead):
     return columns
 
 
+def whole(name, value, least=0, most=None):
+    """Returns a whole number from `least` to `most`. Raises InputError."""
+    if (isinstance(value, bool) or not isinstance(value, (int, np.integer))
+            or not least <= value <= (most or 2**63 - 1)):
+        limit = f" to {most}" if most else ""
+        raise InputError(f"{name} = '{shown(value)}': out of range; "
+                         f"allowed: a whole number from {least}{limit}")
+    return int(value)
+
+
 def thread_count(threads):
     """Number of threads for a `threads` argument; None means all cores."""
     if threads is None:
         return len(os.sched_getaffinity(0))
-    if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or not 1 <= threads <= 4096:
-        raise InputError(f"threads = '{shown(threads)}': out of range; allowed: a whole number from 1 to 4096")
-    return _slipfront.sensible_threads(int(threads))
+    return _slipfront.sensible_threads(whole("threads", threads, 1, 4096))

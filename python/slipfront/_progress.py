@@ -3,24 +3,24 @@
 import sys
 import time
 
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError
 
 
 def watcher(progress):
-    """Returns the function that reports progress, for a `progress` argument. None and False give None, True gives a Line, and a
-    callable is returned unchanged. Raises InputError for other values."""
+    """Returns the function to call, or None, for an argument `progress`. Raises InputError."""
     if progress is None or progress is False:
         return None
     if progress is True:
         return Line()
     if callable(progress):
         return progress
-    raise InputError(f"progress = '{shown(progress)}': neither a bool nor a function; allowed: True, or a function of (done, total, steps, level)")
+    raise InputError(f"progress = '{shown(progress)}': neither a bool nor a function; allowed: "
+                     "True, or a function of (done, total, steps, level)")
 
 
 class Line:
-    """A bar with the remaining time, on one line of stderr. It is called with (done, total, ...)."""
+    """A bar with the remaining time on stderr. It is called with (done, total, ...)."""
 
     def __init__(self):
         self._start = self._label = None
@@ -33,8 +33,8 @@ class Line:
         rate = (done - self._first) / (now - self._start) if now > self._start else 0
         left = f"{(total - done) / rate:.0f} s left" if rate > 0 else ""
         bar = ("#" * int(30 * share)).ljust(30, ".")
-        print(f"\r{level + ' ' if level else ''}[{bar}] {100 * share:5.1f} %  {done:.6g} of {total:.6g}  {left}\x1b[K", end="",
-              file=sys.stderr, flush=True)
+        print(f"\r{level + ' ' if level else ''}[{bar}] {100 * share:5.1f} %  {done:.6g} of "
+              f"{total:.6g}  {left}\x1b[K", end="", file=sys.stderr, flush=True)
 
     def close(self):
         if self._start is not None:
@@ -42,7 +42,7 @@ class Line:
 
 
 class showing:
-    """Context manager that gives the function to call with the progress. It clears a Line at the end."""
+    """Context manager with the function to call, or None. It clears a Line at the end."""
 
     def __init__(self, progress):
         self._call = watcher(progress)

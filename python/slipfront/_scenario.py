@@ -1,4 +1,4 @@
-"""Reads scenarios as users give them: the path of a TOML file, TOML text, or a dict nested like the TOML."""
+"""Reads scenarios as users give them: a path, TOML text, or a dict nested like the TOML."""
 
 import json
 import os
@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 
 from ._numbers import np
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError, require_other_file
 
 
@@ -17,7 +17,9 @@ _most_nested = 100
 def _value(key, value, depth=0):
     """Returns a value as TOML. Raises InputError for a type that TOML does not have."""
     if depth > _most_nested:
-        raise InputError(f"{shown(key)}: tables or lists are nested more than {_most_nested} deep or contain themselves; allowed: a number, a text, a list or a dict of them")
+        raise InputError(f"{shown(key)}: tables or lists are nested more than {_most_nested} deep "
+                         "or contain themselves; allowed: a number, a text, a list or a dict of "
+                         "them")
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
     if isinstance(value, bool):
@@ -31,8 +33,10 @@ def _value(key, value, depth=0):
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(key, item, depth + 1) for item in value) + "]"
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{_name(name)} = {_value(f'{key}.{name}', item, depth + 1)}" for name, item in value.items()) + " }"
-    raise InputError(f"{shown(key)} = '{shown(value)}': a {type(value).__name__}; allowed: a number, a text, a list or a dict of them")
+        return "{ " + ", ".join(f"{_name(name)} = {_value(f'{key}.{name}', item, depth + 1)}"
+                                for name, item in value.items()) + " }"
+    raise InputError(f"{shown(key)} = '{shown(value)}': a {type(value).__name__}; allowed: a "
+                     "number, a text, a list or a dict of them")
 
 
 def to_toml(tables):
@@ -40,7 +44,8 @@ def to_toml(tables):
     lines, later = [], []
     for name, table in tables.items():
         if isinstance(table, Mapping):
-            later += [f"[{_name(name)}]"] + [f"{_name(key)} = {_value(f'{name}.{key}', value)}" for key, value in table.items()]
+            later += [f"[{_name(name)}]"] + [f"{_name(key)} = {_value(f'{name}.{key}', value)}"
+                                             for key, value in table.items()]
         else:
             lines.append(f"{_name(name)} = {_value(name, table)}")
     return "\n".join(lines + later) + "\n"
@@ -58,16 +63,18 @@ def is_path(source):
 
 
 def overrides(settings):
-    """Returns the texts "table.key=value" of a dict {"table.key": value}, as --set on the command line takes them."""
+    """Returns the texts "table.key=value" of a dict, as --set takes them."""
     if settings is None:
         return []
     if not isinstance(settings, Mapping):
-        raise InputError(f"set = '{shown(settings)}': a {type(settings).__name__}; allowed: a dict such as {{'friction.coefficient': 0.5}}")
-    return [f"{key}={value if isinstance(value, str) else _value(key, value)}" for key, value in settings.items()]
+        raise InputError(f"set = '{shown(settings)}': a {type(settings).__name__}; allowed: a dict "
+                         f"such as {{'friction.coefficient': 0.5}}")
+    return [f"{key}={value if isinstance(value, str) else _value(key, value)}"
+            for key, value in settings.items()]
 
 
 def path(name, value):
-    """Returns a path as str, or "" for None. Raises InputError for other types; `name` is that of the parameter."""
+    """Returns a path as str, or "" for None. Raises InputError with the parameter's `name`."""
     if value is None:
         return ""
     try:
@@ -80,9 +87,10 @@ def path(name, value):
 
 
 def output_path(output, *inputs):
-    """Returns the path of an output as `path` does. Raises InputError if it is one of the input files; inputs that are no paths cannot be."""
+    """Returns an output as `path` does. Raises InputError if it is one of the input files."""
     file = path("output", output)
-    sources = [source for given in inputs for source in (given if isinstance(given, (list, tuple)) else [given]) if is_path(source)]
+    sources = [source for given in inputs for source in (given if isinstance(given, (list, tuple))
+                                                         else [given]) if is_path(source)]
     require_other_file(os.fsencode(file), [os.fsencode(source) for source in sources])
     return file
 
@@ -97,9 +105,11 @@ def arguments(scenario, *, set=None, output=None, resume=None, progress=None, si
     elif isinstance(scenario, str):
         text = scenario
     else:
-        raise InputError(f"scenario: a {type(scenario).__name__}; allowed: the path of a TOML file, TOML text or a dict")
+        raise InputError(f"scenario: a {type(scenario).__name__}; allowed: the path of a TOML "
+                         "file, TOML text or a dict")
     result = {"text": text, "path": source, "set": overrides(set), "output": path("output", output),
-              "resume": path("resume", resume), "progress": progress, "si": None if si is None else bool(si)}
+              "resume": path("resume", resume), "progress": progress,
+              "si": None if si is None else bool(si)}
     for key in ("text", "path", "output", "resume"):
         _encodable(key, result[key])
     for override in result["set"]:
@@ -112,4 +122,5 @@ def _encodable(key, text):
     try:
         text.encode()
     except UnicodeEncodeError:
-        raise InputError(f"{key}: contains half of a surrogate pair; allowed: text that UTF-8 can encode") from None
+        raise InputError(f"{key}: contains half of a surrogate pair; allowed: text that UTF-8 can "
+                         "encode") from None

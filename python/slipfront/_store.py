@@ -1,6 +1,7 @@
 """Stores the results of a sweep on disk while it runs.
 
-Each line is appended in one piece and has a checksum. A sweep that is killed therefore loses at most its last line.
+Each line is appended in one piece and has a checksum. A sweep that is killed therefore loses at
+most its last line.
 """
 
 import contextlib
@@ -26,18 +27,21 @@ def _content(line):
 
 
 class Store:
-    """The file `path` with the finished rows of a sweep. Its first line is `about`, the description of the sweep as JSON.
+    """The file `path` with the finished rows of a sweep. Its first line is `about`, the description
+    of the sweep as JSON.
 
-    Raises FileError if the file cannot be read or written. Raises InputError if it holds another sweep, or if it holds an
-    unfinished sweep and `resume` is false.
+    Raises FileError if the file cannot be read or written. Raises InputError if it holds another
+    sweep, or if it holds an unfinished sweep and `resume` is false.
     """
 
     def __init__(self, path, about, resume):
         self.path, self.rows, self.rows_written = path, [], False
         try:
-            self._file = os.open(path, os.O_RDWR | os.O_APPEND | (0 if resume else os.O_CREAT | os.O_EXCL), 0o666)
+            self._file = os.open(path, os.O_RDWR | os.O_APPEND
+                                 | (0 if resume else os.O_CREAT | os.O_EXCL), 0o666)
         except FileExistsError:
-            raise InputError(f"{path}: contains an unfinished sweep; allowed: resume it, or remove the file") from None
+            raise InputError(f"{path}: contains an unfinished sweep; allowed: resume it, or remove "
+                             "the file") from None
         except OSError as error:
             raise FileError(f"{path}: {error.strerror}") from error
         try:
@@ -50,7 +54,8 @@ class Store:
             self._close()
             if isinstance(error, FileError):
                 raise
-            reason = "another process is writing it" if isinstance(error, BlockingIOError) else error.strerror
+            reason = ("another process is writing it" if isinstance(error, BlockingIOError)
+                      else error.strerror)
             raise FileError(f"{path}: {reason}") from error
         except InputError:
             self._close()
@@ -58,7 +63,8 @@ class Store:
 
     def _close(self):
         with contextlib.suppress(OSError):
-            fcntl.flock(self._file, fcntl.LOCK_UN)  # a process that was forked in the meantime also has the descriptor
+            # A process that was forked in the meantime also has the descriptor
+            fcntl.flock(self._file, fcntl.LOCK_UN)
         os.close(self._file)
 
     def _read(self, about):
@@ -69,7 +75,8 @@ class Store:
                 if content is None:
                     break
                 if whole == 0 and content != about:
-                    raise InputError(f"{self.path}: was written by another sweep; allowed: the scenario, axes, variables and version of that sweep")
+                    raise InputError(f"{self.path}: was written by another sweep; allowed: the "
+                                     "scenario, axes, variables and version of that sweep")
                 if whole > 0:
                     self.rows += content
                 whole += len(line)
@@ -92,7 +99,7 @@ class Store:
         raise FileError(f"{self.path}: {reason}")
 
     def close(self, remove=False):
-        """Closes the file, and removes it if `remove` is true. Errors of a removal are ignored, because the rows are no longer needed."""
+        """Closes the file, and removes it if `remove`, ignoring errors."""
         try:
             if remove:
                 os.unlink(self.path)

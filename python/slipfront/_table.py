@@ -1,4 +1,4 @@
-"""Tables and lines of text that fit the terminal, by the rules of apps/slipfront/terminal_table.hpp."""
+"""Tables and lines that fit the terminal, as in apps/slipfront/terminal_table.hpp."""
 
 import os
 import sys
@@ -64,8 +64,7 @@ def blocks_of(widths, most, gap):
 
 
 def table(columns, left=0):
-    """Returns columns of texts as a table. If it is wider than a line, it is divided into blocks that
-    repeat the first column. The first `left` columns are aligned to the left."""
+    """Returns columns, `left` of them left-aligned, as a table in blocks as wide as a line."""
     widths = [max(map(len, column)) for column in columns]
     most = width() or float("inf")
     gap = GAP if sum(widths) + GAP * (len(widths) - 1) <= most else LEAST_GAP

@@ -1,24 +1,24 @@
-"""The command slipfront animate, which draws slip pulses and ruptures on a plane as moving pictures."""
+"""The command slipfront animate, which draws pulses and ruptures as moving pictures."""
 
 import json
 import pathlib
 import tomllib
 
-from ._arguments import Arguments, add_units, chosen_units, file_name, progress, put
+from ._arguments import Arguments, chosen_units, progress, put
 from ._optional import import_optional
 
 FRAMES = 75
 
-#: The rock for scales in SI units, as in the paper: P-wave speed in m/s, Poisson's ratio, shear modulus in Pa.
+#: The rock for scales in SI units, as in the paper: P-wave speed in m/s, Poisson's ratio, shear
+#: modulus in Pa.
 ROCK = {"p_wave_speed": 6000.0, "poisson_ratio": 0.3, "shear_modulus": 30e9}
-
 
 #: Endings of finite-fault models, by which they differ from results.
 MODELS = (".fsp", ".srf", ".param", ".rupt", ".geojson")
 
 
 def content_of(scenario):
-    """Returns the tables of a scenario file, or none if it cannot be read: the run reports the error."""
+    """Returns the tables of a scenario file, or none if the run will report its error."""
     try:
         with open(scenario, "rb") as file:
             content = tomllib.load(file)
@@ -28,49 +28,58 @@ def content_of(scenario):
 
 
 def run(scenario, si, direct):
-    """Runs a scenario file. The output times give a smooth animation unless the scenario has its own."""
+    """Runs a scenario with output times for a smooth animation, unless it has its own."""
     import slipfront
 
     content = content_of(scenario)
     on_plane = "plane" in content or scenario.lower().endswith(MODELS)
     if direct and not on_plane:
-        raise ValueError(f"{scenario}: --direct: not a scenario on a plane; allowed: with the table [plane]")
+        raise ValueError(f"{scenario}: --direct: not a scenario on a plane; allowed: with the "
+                         "table [plane]")
     plan = slipfront.check(scenario, command="plane" if on_plane else "pulse", direct=direct)
     unit, every = plan["time_unit"], plan["end"] / (FRAMES - 1)
-    settings = {} if "times" in content.get("output", {}) else {"output.every": f"{every * unit!r} s" if unit else every}
+    settings = ({} if "times" in content.get("output", {})
+                else {"output.every": f"{every * unit!r} s" if unit else every})
     if not on_plane:
         result = slipfront.pulse(scenario, set=settings, si=si)
     elif direct:
-        result = slipfront.plane(scenario, set=settings | {"output.lines": True}, direct=True, si=si)
+        result = slipfront.plane(scenario, set=settings | {"output.lines": True}, direct=True,
+                                 si=si)
     else:
-        result = slipfront.plane(scenario, set=settings | {"output.lines": True}, errors=False, si=si)
-    return result.assign_attrs(title=plan["title"])  # the title of the run names the output times that we have set
+        result = slipfront.plane(scenario, set=settings | {"output.lines": True}, errors=False,
+                                 si=si)
+    # The title of the run names the output times that we have set
+    return result.assign_attrs(title=plan["title"])
 
 
 def content_to_show(source, si=None, direct=False):
-    """Returns the pulse, or the rupture on a plane, of a file. A scenario or a finite-fault model is run first. `si` chooses the
-    units, by default those of the file or the scenario."""
+    """Returns the pulse or rupture of a file, in SI units if `si`. Runs a scenario or model."""
     from .plots import files
 
-    shown = run(source, si, direct) if source.lower().endswith((".toml", *MODELS)) else files.read(source, si)
+    shown = run(source, si,
+                direct) if source.lower().endswith((".toml", *MODELS)) else files.read(source, si)
     on_plane = is_plane(shown)
-    is_pulse = {"W", "Sigma", "k", "x_bounds"} <= set(shown.variables) and set(shown["k"].dims) == {"time", "x"}
+    is_pulse = {"W", "Sigma", "k",
+                "x_bounds"} <= set(shown.variables) and set(shown["k"].dims) == {"time", "x"}
     if not (on_plane or is_pulse) or shown.sizes["time"] < 2:
-        raise ValueError(f"{source}: contains no pulse with two or more output times; allowed: a file of pulse, chain or plane, or a scenario")
+        raise ValueError(f"{source}: contains no pulse with two or more output times; allowed: a "
+                         "file of pulse, chain or plane, or a scenario")
     return shown
 
 
 def is_plane(shown):
-    """Whether a Dataset is a rupture on a plane."""
-    return {"slip_velocity", "moment_rate"} <= set(shown.variables) and shown["slip_velocity"].dims == ("time", "y", "x")
+    return ({"slip_velocity", "moment_rate"} <= set(shown.variables)
+            and shown["slip_velocity"].dims == ("time", "y", "x"))
 
 
 def scene_of(shown, si):
     """Returns the scene of pulses, or of ruptures on a plane."""
     if len({source.attrs.get("unit_system") for source in shown}) > 1:
-        raise ValueError("FILE: some are in SI units and others are not; allowed: --si or --dimensionless for all")
+        raise ValueError("FILE: some are in SI units and others are not; allowed: --si or "
+                         "--dimensionless for all")
     if si and any(source.attrs.get("unit_system") == "SI" for source in shown):
-        raise ValueError("--contact-ratio: the pulse is in SI units already; allowed: with --dimensionless")
+        raise ValueError("--contact-ratio: the pulse is in SI units already; allowed: with "
+                         "--dimensionless")
     on_plane = {is_plane(source) for source in shown}
     if len(on_plane) > 1:
         raise ValueError("FILE: some are on a plane and others on a line; allowed: all of one kind")
@@ -81,51 +90,37 @@ def scene_of(shown, si):
     from .plots.plane_animation import PlaneScene
 
     if si:
-        raise ValueError("--contact-ratio: not for a rupture on a plane; allowed: [medium] in its scenario, and --si")
+        raise ValueError("--contact-ratio: not for a rupture on a plane; allowed: [medium] in its "
+                         "scenario, and --si")
     return PlaneScene(shown)
 
 
 def si_units(options):
-    """Returns the SI values of the units from --contact-ratio and --asperity-spacing, or None if both are missing."""
+    """Returns SI values of the units by the options, or None if they are missing."""
     from . import medium
 
     if (options.contact_ratio is None) != (options.asperity_spacing is None):
-        raise ValueError("--contact-ratio and --asperity-spacing: one is missing; scales in m, s, m/s and MPa need both")
+        raise ValueError("--contact-ratio and --asperity-spacing: one is missing; scales in m, s, "
+                         "m/s and MPa need both")
     if options.contact_ratio is None:
         return None
     speed = float(medium.speed_from_p_wave(ROCK["p_wave_speed"], ROCK["poisson_ratio"]))
-    return medium.units(ROCK["shear_modulus"], speed, options.contact_ratio, options.asperity_spacing)
-
-
-def arguments(argv):
-    """Returns the options of the command line."""
-    parser = Arguments("animate", "Draws slip pulses and ruptures on a plane as moving pictures, with the dislocations that carry them.",
-                       ["slipfront animate cases/step.toml -o step.gif", "slipfront animate cases/step.toml cases/step-viscous.toml -o both.webp",
-                        "slipfront animate cases/plane-barrier.toml --direct -o barrier.gif"])
-    parser.add_argument("sources", metavar="FILE", nargs="+",
-                        help="NetCDF of pulse, chain or plane (a frame for each output time), or a scenario (TOML) or finite-fault model (" + ", ".join(MODELS) + ") to run; "
-                             "several are drawn side by side")
-    parser.add_argument("--direct", action="store_true", help="follow every dislocation line of scenarios on a plane, and draw it")
-    parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name, required=True, help="its ending is the format: gif, webp, mp4")
-    parser.add_argument("--contact-ratio", metavar="A", type=float, help="contact ratio; adds scales in SI units to the dimensionless ones")
-    parser.add_argument("--asperity-spacing", metavar="METRES", type=float,
-                        help="asperity spacing b in m, for the scales in SI units; the rock is that of the paper: P waves of 6 km/s, Poisson's ratio 0.3, 30 GPa")
-    add_units(parser, "default if the file or the scenario is in SI units")
-    return parser.parse_args(argv)
+    return medium.units(ROCK["shear_modulus"], speed, options.contact_ratio,
+                        options.asperity_spacing)
 
 
 def main(argv) -> int:
-    """Writes the animation and returns the exit code. Raises ValueError for bad input, OSError for files, and ImportError for a
-    missing library."""
-    options = arguments(argv)
+    options = Arguments("animate").parse_args(argv)
     for module in ("xarray", "matplotlib", "PIL"):
         import_optional(module)
     from .plots import movie
 
     output = pathlib.Path(options.output)
     if output.suffix.lower().lstrip(".") not in movie.FORMATS:
-        raise ValueError(f"-o {output}: '{output.suffix}' is not a format of moving pictures; allowed endings: {', '.join(movie.FORMATS)}")
-    shown = [content_to_show(source, chosen_units(options), options.direct) for source in options.sources]
+        raise ValueError(f"-o {output}: '{output.suffix}' is not a format of moving pictures; "
+                         f"allowed endings: {', '.join(movie.FORMATS)}")
+    shown = [content_to_show(source, chosen_units(options), options.direct)
+             for source in options.sources]
     scene, frames = scene_of(shown, si_units(options)), []
     for row in range(scene.times.size):
         progress(options, f"frame {row + 1} of {scene.times.size}")
@@ -133,7 +128,8 @@ def main(argv) -> int:
     movie.write(frames, output)
     progress(options, "")
     if options.json:
-        print(json.dumps({"picture": str(output), "frames": len(frames), "dislocations_scale": scene.scale, "bytes": output.stat().st_size}))
+        print(json.dumps({"picture": str(output), "frames": len(frames),
+                          "dislocations_scale": scene.scale, "bytes": output.stat().st_size}))
     elif not options.quiet:
         put(f"written to {output}: {len(frames)} frames, {output.stat().st_size / 1e6:.2f} MB")
     return 0

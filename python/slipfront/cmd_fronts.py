@@ -4,31 +4,21 @@ import csv
 import json
 import sys
 
-from ._arguments import Arguments, add_columns, add_units, chosen_units, netcdf_name, put
+from ._arguments import Arguments, chosen_units, put
 from ._table import table
 
 #: Titles of the table for the terminal, the variable of each, and its name for the unit.
-COLUMNS = (("event", "front_event"), ("begin", "front_begin"), ("end", "front_end"), ("onset", "front_onset"), ("V", "front_velocity"),
-           ("tau / sigma_N", "front_stress_ratio"), ("class", "front_kind"), ("ends at", "front_stop"))
+COLUMNS = (("event", "front_event"), ("begin", "front_begin"), ("end", "front_end"),
+           ("onset", "front_onset"), ("V", "front_velocity"),
+           ("tau / sigma_N", "front_stress_ratio"), ("class", "front_kind"),
+           ("ends at", "front_stop"))
 
 
 def arguments(argv):
-    """Returns the options of the command line."""
-    parser = Arguments("fronts", "Finds the fronts of a run, as slipfront.fronts does in Python. RUN.nc is a loaded chain with output.fronts, or a pulse or a chain without [loading] and "
-                       "with many output times.",
-                       ["slipfront pulse cases/step.toml --set output.every=0.2 -o step.nc", "slipfront fronts step.nc", "slipfront chain cases/precursors.toml -o block.nc",
-                        "slipfront fronts block.nc -o fronts.nc", "slipfront fronts block.nc --csv > fronts.csv", "slipfront plot fronts.nc", "slipfront fronts --arrivals gauges.csv --columns map.toml"])
-    parser.add_argument("run", metavar="RUN.nc", nargs="?", help="file of a chain or a pulse")
-    parser.add_argument("--arrivals", metavar="TABLE", help="in place of RUN.nc: arrival times at gauges, CSV with the columns position and time and, if known, error of position, error of time and event")
-    add_columns(parser)
-    parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name, help="NetCDF file to write; slipfront plot draws it")
-    parser.add_argument("--threshold", metavar="SHARE", type=float, help="slip velocity at the front over the largest of the run, for runs that recorded no arrivals (default: 0.001)")
-    parser.add_argument("--slow", metavar="SHARE", type=float, default=0.1, help="a front below this share of the speed of Rayleigh waves is slow (default: 0.1)")
-    add_units(parser, "default if the run is in SI units")
-    parser.add_argument("--csv", action="store_true", help="the fronts with a velocity as CSV in SI units, which slipfront laboratory reads")
-    options = parser.parse_args(argv)
+    options = Arguments("fronts").parse_args(argv)
     if (options.run is None) == (options.arrivals is None):
-        raise ValueError("RUN.nc: either a run or a table of arrivals is needed; allowed: RUN.nc, or --arrivals TABLE")
+        raise ValueError("RUN.nc: either a run or a table of arrivals is needed; "
+                         "allowed: RUN.nc, or --arrivals TABLE")
     if options.columns and not options.arrivals:
         raise ValueError("--columns: not for a run; allowed: with --arrivals")
     for option in ("output", "threshold", "dimensionless"):
@@ -45,7 +35,6 @@ def known(value):
 
 
 def as_json(data, file):
-    """Returns the results as a dict: a dict for each front and for each event."""
     def rows(dimension):
         found: list[dict] = [{} for _ in range(data.sizes[dimension])]
         for name, variable in data.data_vars.items():
@@ -55,7 +44,8 @@ def as_json(data, file):
         return found
 
     velocity = data["front_velocity"]
-    return {"file": file, **{name: data.attrs[name] for name in ("rayleigh_speed", "tau")}, "velocity_unit": velocity.attrs.get("dimensional_unit") or "m/s",
+    return {"file": file, **{name: data.attrs[name] for name in ("rayleigh_speed", "tau")},
+            "velocity_unit": velocity.attrs.get("dimensional_unit") or "m/s",
             "fronts": rows("front"), "events": rows("event")}
 
 
@@ -66,34 +56,44 @@ def cell(value):
 
 
 def rows(data):
-    """Returns the table of fronts, below the titles and the units."""
     cells = []
     for title, name in COLUMNS:
         attributes = data[name].attrs
         unit = attributes.get("dimensional_unit") or attributes.get("units", "")
-        cells.append([title, "" if unit == "1" else unit.replace("m s-1", "m/s"), *(cell(value) for value in data[name].values.tolist())])
+        cells.append([title, "" if unit == "1" else unit.replace("m s-1", "m/s"),
+                      *(cell(value) for value in data[name].values.tolist())])
     return table(cells)
 
 
 def write_csv(data, stream):
-    """Writes the fronts with a velocity, with their stresses, as slipfront laboratory reads them. Raises ValueError if a constant is missing."""
-    missing = [name for attribute, name in (("normal_stress_pa", "friction.normal_stress"), ("tau_unit_pa", "[medium]"), ("c_m_s", "[medium]")) if attribute not in data.attrs]
+    """Writes fronts for slipfront laboratory. Raises ValueError if a constant is missing."""
+    missing = [name for attribute, name in (("normal_stress_pa", "friction.normal_stress"),
+                                            ("tau_unit_pa", "[medium]"), ("c_m_s", "[medium]"))
+               if attribute not in data.attrs]
     if missing:
-        raise ValueError(f"--csv: SI units need constants that the scenario does not give; allowed: a scenario with {' and '.join(dict.fromkeys(missing))}")
+        raise ValueError("--csv: SI units need constants that the scenario does not give; "
+                         f"allowed: a scenario with {' and '.join(dict.fromkeys(missing))}")
     normal, speed = (data.attrs[name] for name in ("normal_stress_pa", "c_m_s"))
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(["name", "tau [MPa]", "normal_stress [MPa]", "front_velocity [m/s]", "class"])
-    for i, (event, velocity, ratio, kind) in enumerate(zip(*(data[name].values.tolist() for name in ("front_event", "front_velocity", "front_stress_ratio", "front_kind"))), 1):
+    for i, (event, velocity, ratio, kind) in enumerate(
+            zip(*(data[name].values.tolist() for name in ("front_event", "front_velocity",
+                                                          "front_stress_ratio", "front_kind"))), 1):
         if abs(velocity) < float("inf"):
-            writer.writerow([f"event {event} front {i}", f"{ratio * normal / 1e6:.6g}", f"{normal / 1e6:.6g}", f"{velocity * speed:.6g}", kind])
+            writer.writerow([f"event {event} front {i}", f"{ratio * normal / 1e6:.6g}",
+                             f"{normal / 1e6:.6g}", f"{velocity * speed:.6g}", kind])
 
 
 def summary(data):
-    """Yields the lines below the table."""
-    counts = {kind: int((data["front_kind"] == kind).sum()) for kind in dict.fromkeys(data["front_kind"].values.tolist())}
-    yield f"fronts    {data.sizes['front']}: " + ", ".join(f"{count} {kind}" for kind, count in counts.items())
-    yield f"events    {data.sizes['event']}, of which {int(data['event_crosses'].sum())} cross the whole block"
-    yield f"Rayleigh  {data.attrs['rayleigh_speed']:.4g} c" + (f" = {data.attrs['rayleigh_speed'] * data.attrs['c_m_s']:.4g} m/s" if "c_m_s" in data.attrs else "")
+    counts = {kind: int((data["front_kind"] == kind).sum())
+              for kind in dict.fromkeys(data["front_kind"].values.tolist())}
+    yield f"fronts    {data.sizes['front']}: " + ", ".join(f"{count} {kind}"
+                                                           for kind, count in counts.items())
+    yield (f"events    {data.sizes['event']}, of which {int(data['event_crosses'].sum())} cross "
+           "the whole block")
+    yield (f"Rayleigh  {data.attrs['rayleigh_speed']:.4g} c"
+           + (f" = {data.attrs['rayleigh_speed'] * data.attrs['c_m_s']:.4g} m/s"
+              if "c_m_s" in data.attrs else ""))
 
 
 def report_arrivals(options):
@@ -108,25 +108,29 @@ def report_arrivals(options):
     elif options.json:
         found = [dict(zip(cells, row)) for row in zip(*cells.values())]
         for front in found:
-            front.update(velocity=known(front["velocity"]), velocity_interval=[known(end) for end in front["velocity_interval"]])
+            front.update(velocity=known(front["velocity"]),
+                         velocity_interval=[known(end) for end in front["velocity_interval"]])
         print(json.dumps({"file": options.arrivals, "fronts": found, "warnings": notes}))
     else:
-        put(table([["event", "", *map(cell, cells["event"])], ["begin", "m", *map(cell, cells["front_begin"])], ["end", "m", *map(cell, cells["front_end"])],
-                   ["V", "m/s", *map(cell, cells["velocity"])], *([f"{share} %", "m/s", *(cell(ends[i]) for ends in cells["velocity_interval"])] for i, share in enumerate((5, 95)))]))
+        low, high = zip(*cells["velocity_interval"])
+        columns = (("event", "", cells["event"]), ("begin", "m", cells["front_begin"]),
+                   ("end", "m", cells["front_end"]), ("V", "m/s", cells["velocity"]),
+                   ("5 %", "m/s", low), ("95 %", "m/s", high))
+        put(table([[title, unit, *map(cell, values)] for title, unit, values in columns]))
         if not options.quiet:
             for note in notes:
                 put(f"note: {note}")
 
 
 def main(argv) -> int:
-    """Runs the command and returns the exit code. Raises ValueError for bad input, OSError for files."""
     options = arguments(argv)
     if options.arrivals:
         report_arrivals(options)
         return 0
     from . import fronts
 
-    data = fronts(options.run, threshold=options.threshold, slow=options.slow, output=options.output, si=False if options.csv else chosen_units(options))
+    data = fronts(options.run, threshold=options.threshold, slow=options.slow,
+                  output=options.output, si=False if options.csv else chosen_units(options))
     if options.csv:
         write_csv(data, sys.stdout)
         return 0

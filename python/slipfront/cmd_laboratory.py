@@ -1,27 +1,20 @@
-"""The command slipfront laboratory, which computes the hardness over modulus from fronts in the laboratory."""
+"""The command slipfront laboratory: hardness over modulus from fronts."""
 
-import argparse
 import json
 import sys
 
-from ._arguments import Arguments, add_columns, file_name, put
+from ._arguments import Arguments, put
 from ._messages import DONE, INPUT, complain
-from ._shown import shown
+from ._messages import shown
 from ._table import table
 
 #: Titles of the table for the terminal, the variable in units of the model, and in SI units.
-COLUMNS = (("tau / sigma_N", "stress_ratio"), ("V", "front_velocity"), ("predicted", "predicted_front_velocity"), ("deviation", "deviation"))
+COLUMNS = (("tau / sigma_N", "stress_ratio"), ("V", "front_velocity"),
+           ("predicted", "predicted_front_velocity"), ("deviation", "deviation"))
 
 
 #: Characters of a name in the table.
 WIDEST = 40
-
-
-def whole(text):
-    """Returns a whole number of an option."""
-    if not text.isascii() or not text.isdigit():
-        raise argparse.ArgumentTypeError(f"'{text}' is no whole number; allowed: digits only, such as 1000")
-    return int(text)
 
 
 def interval(text):
@@ -34,35 +27,15 @@ def interval(text):
 
 
 def arguments(argv):
-    """Returns the options of the command line."""
-    parser = Arguments("laboratory", "Computes the penetration hardness over the shear modulus from the velocities of fronts, as slipfront.laboratory does in Python. TABLE has "
-                       "the columns tau, normal_stress, front_velocity and, if known, stress_drop (or shear_stress_after) and name, with units in the titles or cells. A row that cannot be read is "
-                       "named and left out, and the exit code is 2. With --events, TABLE is the record of an experiment (time, displacement, shear stress, normal stress), whose "
-                       "stick-slip events become a table.",
-                       ["slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --s-wave-speed \"1300 m/s\" -o fronts.nc",
-                        "slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --shear-modulus \"2 GPa\" --density \"1180 kg/m3\" --json",
-                        "slipfront laboratory record.csv --events --normal-stress \"5 MPa\" -o events.csv"])
-    parser.add_argument("table", metavar="TABLE", help="table of fronts, or record of an experiment, CSV")
-    parser.add_argument("-o", "--output", metavar="OUT", type=file_name, help="NetCDF file to write, which slipfront plot draws; with --events, a table that slipfront laboratory and event read (CSV)")
-    parser.add_argument("--events", action="store_true", help="find the stick-slip events of a record: stress drop, slip, duration and stiffness")
-    parser.add_argument("--load-point", action="store_true", help="with --events: the displacement is that of the load point, not the slip of the interface")
-    parser.add_argument("--least-drop", metavar="STRESS", help="with --events: smallest drop that is an event, such as \"0.1 MPa\" (default: 8 times the noise, at least 5 %% of the range)")
-    for name, example in (("--poisson-ratio", "0.35"), ("--shear-modulus", "2 GPa"), ("--density", "1180 kg/m3"), ("--p-wave-speed", "2700 m/s"), ("--s-wave-speed", "1300 m/s")):
-        parser.add_argument(name, metavar="VALUE", help=f"constant of the material, such as \"{example}\"")
-    parser.add_argument("--normal-stress", metavar="VALUE", help="normal stress of fronts for which the table has none, such as \"2 MPa\"")
-    add_columns(parser)
-    parser.add_argument("--prior", metavar="LOW:HIGH", default="0.001:10", help="range of the hardness over modulus, uniform in its logarithm (default: 0.001:10)")
-    parser.add_argument("--scatter-prior", metavar="LOW:HIGH", default="0.001:1", help="range of the scatter from front to front, uniform in its logarithm (default: 0.001:1)")
-    parser.add_argument("--draws", metavar="N", type=whole, default=1000, help="draws from the posterior in the file (default: 1000)")
-    parser.add_argument("--seed", metavar="N", type=whole, default=1, help="seed of the draws (default: 1)")
-    parser.add_argument("--strict", action="store_true", help="refuse the table if a row cannot be read")
-    parser.add_argument("--si", action="store_true", help="velocities in m/s and the hardness in Pa")
-    options = parser.parse_args(argv)
+    options = Arguments("laboratory").parse_args(argv)
     ending = ".csv" if options.events else ".nc"
     if options.output and not options.output.endswith(ending):
-        raise ValueError(f"-o {options.output}: unsupported file type; allowed: a name that ends in {ending}")
+        raise ValueError(f"-o {options.output}: unsupported file type; "
+                         f"allowed: a name that ends in {ending}")
     if not options.events and (options.load_point or options.least_drop):
-        raise ValueError(f"{'--load-point' if options.load_point else '--least-drop'}: not without --events; allowed: with the record of an experiment")
+        option = "--load-point" if options.load_point else "--least-drop"
+        raise ValueError(f"{option}: not without --events; "
+                         "allowed: with the record of an experiment")
     for option in ("prior", "scatter_prior"):
         try:
             setattr(options, option, interval(getattr(options, option)))
@@ -79,7 +52,6 @@ def known(value):
 
 
 def lines(data, name):
-    """Returns the lines of an attribute of the Dataset."""
     return [line for line in data.attrs[name].split("\n") if line]
 
 
@@ -88,18 +60,19 @@ def velocity_scale(data, si):
 
 
 def as_json(data, file, si):
-    """Returns the results as a dict: the scalars, and a dict for each front."""
     fronts: list[dict] = [{} for _ in range(data.sizes["front"])]
     found = {"file": file, **{name: data.attrs[name] for name in ("c_m_s", "fronts_left_out")}}
     for name, variable in data.data_vars.items():
-        values = variable.values * velocity_scale(data, si) if variable.attrs.get("dimensional_unit") == "c" else variable.values
+        values = (variable.values * velocity_scale(data, si)
+                  if variable.attrs.get("dimensional_unit") == "c" else variable.values)
         if not set(variable.dims) - {"bound"}:
             found[name] = known(values.tolist())
         elif variable.dims[0] == "front":
             for front, value in zip(fronts, values.tolist()):
                 front[name] = known(value)
-    return {**found, "warnings": lines(data, "warnings"), "velocity_unit": "m/s" if si else "c", "fronts": fronts, "errors": lines(data, "errors"),
-            "ignored_columns": [title for title in data.attrs["ignored_columns"].split(", ") if title]}
+    return {**found, "warnings": lines(data, "warnings"), "velocity_unit": "m/s" if si else "c",
+            "fronts": fronts, "errors": lines(data, "errors"),
+            "ignored_columns": list(filter(None, data.attrs["ignored_columns"].split(", ")))}
 
 
 def with_interval(data, name, scale=1.0):
@@ -108,24 +81,25 @@ def with_interval(data, name, scale=1.0):
 
 
 def summary(data, si):
-    """Yields the lines of the result."""
     yield f"hardness over modulus  {with_interval(data, 'hardness_over_modulus')}"
     if "hardness" in data:
-        yield f"hardness               {with_interval(data, 'hardness', 1 if si else 1e-9)} {'Pa' if si else 'GPa'}"
+        yield (f"hardness               {with_interval(data, 'hardness', 1 if si else 1e-9)} "
+               f"{'Pa' if si else 'GPa'}")
     if "hardness_over_modulus_from_velocity" in data:
         yield f"  without stress drop  {with_interval(data, 'hardness_over_modulus_from_velocity')}"
     yield f"scatter of ln(h)       {with_interval(data, 'scatter')}"
-    yield f"fronts used            {int(data['included'].sum())} of {data.sizes['front']}, c = {data.attrs['c_m_s']:.4g} m/s"
+    yield (f"fronts used            {int(data['included'].sum())} of {data.sizes['front']}, c = "
+           f"{data.attrs['c_m_s']:.4g} m/s")
 
 
 def rows(data, si):
-    """Returns the table of fronts, below the title and the units."""
     unit = "m/s" if si else "c"
     cells = [["front", "", *(shown(name, WIDEST) for name in data["name"].values)]]
     for title, name in COLUMNS:
         is_velocity = data[name].attrs.get("dimensional_unit") == "c"
         values = data[name].values * (velocity_scale(data, si) if is_velocity else 1)
-        cells.append([title, unit if is_velocity else "", *("-" if value != value else f"{value:.3g}" for value in values)])
+        cells.append([title, unit if is_velocity else "",
+                      *("-" if value != value else f"{value:.3g}" for value in values)])
     return table(cells, left=1)
 
 
@@ -143,7 +117,8 @@ def report(data, options):
     for warning in lines(data, "warnings"):
         put(f"note: {warning}")
     if data.attrs["ignored_columns"]:
-        put(f"ignored columns: {', '.join(shown(title) for title in data.attrs['ignored_columns'].split(', '))}")
+        put("ignored columns: "
+            f"{', '.join(shown(title) for title in data.attrs['ignored_columns'].split(', '))}")
     if options.output:
         put(f"written to {options.output}")
 
@@ -153,36 +128,47 @@ def report_events(options):
     from ._files import write_text
     from ._laboratory_events import cells_of, csv_of, laboratory_events
 
-    data = laboratory_events(options.table, columns=options.columns, normal_stress=options.normal_stress, least_drop=options.least_drop, load_point=options.load_point)
+    data = laboratory_events(options.table, columns=options.columns,
+                             normal_stress=options.normal_stress, least_drop=options.least_drop,
+                             load_point=options.load_point)
     titles, cells = cells_of(data)
     if options.output:
         write_text(options.output, csv_of(data))
     if options.json:
-        print(json.dumps({"file": options.output, **{name: data.attrs[name] for name in ("least_drop_pa", "displacement_is")}, "warnings": lines(data, "warnings"),
-                          "events": [{name: known(float(value)) for name, value in zip(data.data_vars, row)} for row in zip(*(v.values for v in data.data_vars.values()))]}))
+        rows = zip(*(variable.values for variable in data.data_vars.values()))
+        found = [{name: known(float(value)) for name, value in zip(data.data_vars, row)}
+                 for row in rows]
+        about = {name: data.attrs[name] for name in ("least_drop_pa", "displacement_is")}
+        print(json.dumps({"file": options.output, **about, "warnings": lines(data, "warnings"),
+                          "events": found}))
         return
     heads = [(title.partition(" [")[0], title.partition(" [")[2].rstrip("]")) for title in titles]
     columns = [["event", "", *(str(number) for number in data["event"].values)]]
-    columns += [[name, unit, *(row[i] or "-" for row in cells)] for i, (name, unit) in enumerate(heads)]
-    put("\n".join([table(columns), "", f"events    {len(cells)}, with drops of {data.attrs['least_drop_pa'] / 1e6:.3g} MPa and more"]))
+    columns += [[name, unit, *(row[i] or "-" for row in cells)]
+                for i, (name, unit) in enumerate(heads)]
+    put("\n".join([table(columns), "", f"events    {len(cells)}, with drops of "
+                   f"{data.attrs['least_drop_pa'] / 1e6:.3g} MPa and more"]))
     if not options.quiet:
         for warning in lines(data, "warnings"):
             put(f"note: {warning}")
         if options.output:
-            put(f"written to {options.output}: fill in front_velocity to use it with slipfront laboratory")
+            put(f"written to {options.output}: fill in front_velocity to use it with "
+                "slipfront laboratory")
 
 
 def main(argv) -> int:
-    """Runs the command and returns the exit code. Raises ValueError for bad input, OSError for files."""
     options = arguments(argv)
     if options.events:
         report_events(options)
         return DONE
     from . import laboratory
 
-    data = laboratory(options.table, poisson_ratio=options.poisson_ratio, shear_modulus=options.shear_modulus, density=options.density, p_wave_speed=options.p_wave_speed,
-                      s_wave_speed=options.s_wave_speed, prior=options.prior, scatter_prior=options.scatter_prior, draws=options.draws, seed=options.seed,
-                      strict=options.strict, output=options.output, columns=options.columns, normal_stress=options.normal_stress)
+    data = laboratory(options.table, poisson_ratio=options.poisson_ratio,
+                      shear_modulus=options.shear_modulus, density=options.density,
+                      p_wave_speed=options.p_wave_speed, s_wave_speed=options.s_wave_speed,
+                      prior=options.prior, scatter_prior=options.scatter_prior, draws=options.draws,
+                      seed=options.seed, strict=options.strict, output=options.output,
+                      columns=options.columns, normal_stress=options.normal_stress)
     report(data, options)
     sys.stdout.flush()
     errors = lines(data, "errors")

@@ -4,7 +4,7 @@ import json
 import os
 import pathlib
 
-from ._arguments import Arguments, add_units, chosen_units, file_name, put
+from ._arguments import Arguments, chosen_units, put
 from ._optional import import_optional
 from ._slipfront import require_other_file
 
@@ -12,7 +12,6 @@ FORMATS = ("png", "svg", "pdf", "jpg", "webp")
 
 
 def sweep_variable(dataset, options) -> str:
-    """Returns the name of the number of a sweep to draw."""
     from .plots.sweep import variable_of
 
     try:
@@ -22,7 +21,6 @@ def sweep_variable(dataset, options) -> str:
 
 
 def choices(options, kind, variable) -> dict:
-    """Returns the options of the function that draws a kind of picture."""
     if kind == "loading":
         return {"until_failure": options.until_failure, "event": options.event}
     if kind in ("event", "fronts"):
@@ -41,44 +39,40 @@ def draw(dataset, kind, chosen):
 
 
 def main(argv) -> int:
-    """Draws the pictures of a file. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (matplotlib)."""
-    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, plane, compare, sweep, event, fronts and laboratory, of the CSV of relations and event, and of samples.",
-                       ["slipfront plot pulse.nc", "slipfront plot pulse.nc --kind profiles -o profiles.pdf", "slipfront chain cases/stick-slip.toml --set domain.left=-12.566 domain.right=12.566 time.end=1e6 output.every=2e4 -o loaded.nc",
-                        "slipfront plot loaded.nc --kind loading --until-failure", "slipfront plot loaded.nc --kind event --event 3 -o event.pdf",
-                        "slipfront plot sweep.nc --variable slip_at_origin -o slip.png"])
-    parser.add_argument("file", metavar="FILE", help="NetCDF or CSV")
-    parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name,
-                        help="file of a single picture, the main kind unless --kind names another; the ending gives the format: " + ", ".join(FORMATS))
-    parser.add_argument("--kind", help="the only kind of picture to draw (default without -o: all kinds for which the file has data, as FILE-KIND.png)")
-    parser.add_argument("--event", metavar="N", type=int, help="number of the slip event of a loaded chain to draw close up, from 1 (default: the one with the largest slip)")
-    parser.add_argument("--until-failure", action="store_true", help="draw force and slip velocity of a loaded chain against the logarithm of the time until the event of --event")
-    parser.add_argument("--variable", metavar="NAME", help="number of a sweep to draw (default: slip_velocity_at_origin, or else the first that it has)")
-    add_units(parser, "default if the file is in SI units; otherwise by the constants in its scenario")
-    options = parser.parse_args(argv)
+    options = Arguments("plot").parse_args(argv)
     import_optional("xarray")
     import_optional("matplotlib")
     from .plots import choose, files, save
 
-    output = pathlib.Path(options.output) if options.output else pathlib.Path(options.file).with_suffix(".png")
+    output = (pathlib.Path(options.output) if options.output
+              else pathlib.Path(options.file).with_suffix(".png"))
     if output.suffix.lower().lstrip(".") not in FORMATS:
-        raise ValueError(f"-o {output}: '{output.suffix}' is no picture; allowed endings: {', '.join(FORMATS)}")
+        raise ValueError(f"-o {output}: '{output.suffix}' is no picture; allowed endings: "
+                         f"{', '.join(FORMATS)}")
     dataset = files.read(options.file, chosen_units(options))
     kinds = choose.kinds_of(dataset)
     if not kinds:
-        raise ValueError(f"{options.file}: nothing to draw in it; allowed: what pulse, chain, compare, relations, event, fronts and laboratory write, or samples")
+        raise ValueError(f"{options.file}: nothing to draw in it; allowed: what pulse, chain, "
+                         "compare, relations, event, fronts and laboratory write, or samples")
     if options.kind is not None:
         if options.kind not in kinds:
-            raise ValueError(f"--kind {options.kind}: not for {options.file}; allowed: {', '.join(kinds)}")
+            raise ValueError(f"--kind {options.kind}: not for {options.file}; allowed: "
+                             f"{', '.join(kinds)}")
         kinds = [options.kind]
     if options.output:
         kinds = kinds[:1]
     variable = sweep_variable(dataset, options) if kinds == ["sweep"] else None
     if options.variable and not variable:
-        raise ValueError(f"--variable {options.variable}: not for {options.file}; allowed: with the file of a sweep")
+        raise ValueError(f"--variable {options.variable}: not for {options.file}; allowed: with "
+                         "the file of a sweep")
     drawings = {kind: choices(options, kind, variable) for kind in kinds}
-    for option, given, takers in (("--event", options.event is not None, ("loading", "event", "fronts")), ("--until-failure", options.until_failure, ("loading",))):
+    for option, given, takers in (("--event", options.event is not None,
+                                   ("loading", "event", "fronts")),
+                                  ("--until-failure", options.until_failure, ("loading",))):
         if given and not set(kinds) & set(takers):
-            raise ValueError(f"{option}: not for {options.file}, of which {', '.join(kinds)} is drawn; allowed: with the kinds {', '.join(takers)} of a loaded chain")
+            raise ValueError(f"{option}: not for {options.file}, of which {', '.join(kinds)} is "
+                             f"drawn; allowed: with the kinds {', '.join(takers)} of a loaded "
+                             "chain")
     written = []
     for kind in kinds:
         path = output if len(kinds) == 1 else output.with_stem(f"{output.stem}-{kind}")

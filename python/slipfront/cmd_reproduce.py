@@ -1,4 +1,4 @@
-"""slipfront reproduce: every figure, number and statement of the paper, as a page that opens in a browser."""
+"""The command slipfront reproduce: the paper's figures, numbers and statements as a page."""
 
 import collections
 import itertools
@@ -8,52 +8,55 @@ import textwrap
 import time
 import warnings
 
-from ._arguments import Arguments, file_name, progress, put
+from ._arguments import Arguments, progress, put
 from ._optional import import_optional
 from ._table import width
 
 
 def table(rows) -> str:
-    """The table of numbers. On a terminal that is too narrow for it, its texts take several lines."""
+    """Returns the table of numbers. On a narrow terminal its texts take several lines."""
     cells = [("the paper prints", f"{'printed':>11} {'rounded':>9} {'computed':>10}", "verdict")]
-    cells += [(row["what"], f"{row['printed']:>11} {row['printed_digits']:>9} {row['computed']:>10.4g}", row["verdict"]) for row in rows]
+    cells += [(row["what"], f"{row['printed']:>11} {row['printed_digits']:>9} "
+               f"{row['computed']:>10.4g}", row["verdict"]) for row in rows]
     longest, numbers = 70, 1 + len(cells[0][1]) + 2
     whole = longest + numbers + max(len(verdict) for _, _, verdict in cells)
     most = width() or whole
     if most >= whole:
-        return "\n".join(f"{what[:longest]:<{longest}} {values}  {verdict}" for what, values, verdict in cells)
+        return "\n".join(f"{what[:longest]:<{longest}} {values}  {verdict}"
+                         for what, values, verdict in cells)
     for_texts = max(most - numbers, 30)
     described = for_texts * 3 // 5
     lines = []
     for what, values, verdict in cells:
-        parts = itertools.zip_longest(textwrap.wrap(what, described), [values], textwrap.wrap(verdict, for_texts - described), fillvalue="")
+        parts = itertools.zip_longest(textwrap.wrap(what, described), [values],
+                                      textwrap.wrap(verdict, for_texts - described), fillvalue="")
         lines += [f"{a:<{described}} {b:<{numbers - 3}}  {c}".rstrip() for a, b, c in parts]
     return "\n".join(lines)
 
 
 def summary(tables) -> str:
-    """How many rows have which verdict."""
-    numbers, statements = collections.Counter(row["verdict"] for row in tables["numbers"]), collections.Counter(row["verdict"] for row in tables["statements"])
-    return (f"numbers: {', '.join(f'{count} {verdict}' for verdict, count in numbers.most_common())}\n"
-            f"statements: {', '.join(f'{count} {verdict}' for verdict, count in statements.most_common())}")
+    def counted(name):
+        counts = collections.Counter(row["verdict"] for row in tables[name]).most_common()
+        return f"{name}: {', '.join(f'{count} {verdict}' for verdict, count in counts)}"
+
+    return f"{counted('numbers')}\n{counted('statements')}"
 
 
 def main(argv) -> int:
-    """Writes the folder and prints the table. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (a library)."""
-    parser = Arguments("reproduce", "Every figure, number and statement of the paper, with the data of each, and report.html, a page that needs nothing else.",
-                       ["slipfront reproduce", "slipfront reproduce -o paper --threads 4"])
-    parser.add_argument("-o", "--output", metavar="DIR", type=file_name, default="reproduction", help="folder to write: a new one, or an earlier reproduction, which it replaces (default: reproduction)")
-    options = parser.parse_args(argv)
+    options = Arguments("reproduce").parse_args(argv)
     for module in ("numpy", "xarray", "matplotlib", "netCDF4", "pandas"):
         import_optional(module)
     from .reproduce import outputs, pipeline
 
     warnings.filterwarnings("ignore", "initial stress between 0 and")  # the far end of a tanh
-    warnings.filterwarnings("ignore", "pulse: dislocations overtake")  # the paper's steps into a stressed side: docs/pulse.md
-    warnings.filterwarnings("ignore", "chain: .* dislocations at scale")  # its points are means over many dislocations
+    # The paper's steps into a stressed side: docs/pulse.md
+    warnings.filterwarnings("ignore", "pulse: dislocations overtake")
+    # Its points are means over many dislocations
+    warnings.filterwarnings("ignore", "chain: .* dislocations at scale")
     started = time.monotonic()
     with outputs.whole_folder(options.output) as folder:
-        tables = pipeline.reproduce(folder, options.threads, lambda text: progress(options, text), lambda: time.monotonic() - started)
+        tables = pipeline.reproduce(folder, options.threads, lambda text: progress(options, text),
+                                    lambda: time.monotonic() - started)
     progress(options, "")
     report = str(pathlib.Path(options.output) / "report.html")
     if options.json:

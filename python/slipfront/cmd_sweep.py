@@ -8,10 +8,10 @@ import sys
 import warnings
 
 from . import _slipfront
-from ._arguments import Arguments, add_units, chosen_units, netcdf_name, put
+from ._arguments import Arguments, chosen_units, put
 from ._grid import values_of
 from ._messages import DONE, NUMERICS, Interruption, complain
-from ._shown import shown
+from ._messages import shown
 from ._slipfront import InputError
 from ._table import GAP, table, width
 
@@ -23,28 +23,7 @@ WIDEST = 40
 
 
 def arguments(argv):
-    """Returns the options of the command line."""
-    parser = Arguments("sweep", "Runs a scenario at every point of a grid of settings, as slipfront.sweep does in Python. VALUES are a list such as 0.1,0.5,2, "
-                       "a range first:last:count such as 0:2:9, or a range first:last:count:log with equal ratios such as 0.1:10:5:log. A list may contain ranges. "
-                       "A key with a unit takes it after the value, as in 1:3:5 MPa. `slipfront keys` lists the keys. If a point fails, its row names the reason, "
-                       "and the exit code is 4.",
-                       ["slipfront sweep cases/step-viscous.toml --vary friction.coefficient=0:2:9 -o sweep.nc",
-                        "slipfront sweep cases/step.toml --vary initial.stress_left=0.1:1:4:log --csv",
-                        "slipfront sweep cases/step-viscous.toml --vary friction.coefficient=0.5,1 --vary friction.closure=paper,consistent --json"])
-    parser.add_argument("scenario", metavar="SCENARIO", help="scenario file, TOML")
-    parser.add_argument("--vary", metavar="KEY=VALUES", action="append", required=True,
-                        help="key of the scenario and its values; repeatable: the sweep runs all combinations")
-    parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name,
-                        help="NetCDF file to write at the end; until then OUT.nc.part has the finished points")
-    parser.add_argument("--resume", metavar="OUT.nc", type=netcdf_name, help="resume the interrupted sweep of this file, and write to it")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="extend", nargs="+", default=[], help="table.key=value, which replaces that of the scenario; repeatable")
-    parser.add_argument("--command", choices=("pulse", "chain"), default="pulse", help="what to run: pulse (default) or chain")
-    parser.add_argument("--variables", metavar="NAMES", type=lambda text: text.split(","),
-                        help="numbers of each run to keep, with commas between them (default: all that pulse --json prints)")
-    parser.add_argument("--cluster", metavar="ADDRESS", help="Dask scheduler whose workers run the points, such as tcp://HOST:8786")
-    parser.add_argument("--csv", action="store_true", help="one CSV row each, full precision")
-    add_units(parser)
-    options = parser.parse_args(argv)
+    options = Arguments("sweep").parse_args(argv)
     if options.json and options.csv:
         raise ValueError("--json and --csv: both are given; allowed: one of them")
     return options
@@ -56,9 +35,11 @@ def pairs(option, texts):
     for text in texts:
         key, equals, value = (part.strip() for part in text.partition("="))
         if not key or not equals:
-            raise ValueError(f"{option} {text}: no key and value; allowed: KEY=VALUE, such as friction.coefficient=0.5")
+            raise ValueError(f"{option} {text}: no key and value; allowed: KEY=VALUE, such as "
+                             "friction.coefficient=0.5")
         if key in found and option == "--vary":
-            raise ValueError(f"{option} {text}: {key} is given twice; allowed: once, with all its values")
+            raise ValueError(f"{option} {text}: {key} is given twice; allowed: once, with all its "
+                             "values")
         found[key] = value
     return found
 
@@ -85,14 +66,16 @@ def client_of(address):
 
 
 def run(options, axes):
-    """Runs the sweep. An error names the options of the command line instead of the parameters of the function."""
+    """Runs the sweep. An error names options instead of the parameters of the function."""
     from . import sweep
 
     client = client_of(options.cluster) if options.cluster else None
     settings = pairs("--set", options.set)
     try:
-        return sweep(options.scenario, axes, variables=options.variables, set=settings, command=options.command, output=options.output, resume=options.resume,
-                     client=client, progress=sys.stderr.isatty() and not options.quiet, threads=options.threads, si=chosen_units(options))
+        return sweep(options.scenario, axes, variables=options.variables, set=settings,
+                     command=options.command, output=options.output, resume=options.resume,
+                     client=client, progress=sys.stderr.isatty() and not options.quiet,
+                     threads=options.threads, si=chosen_units(options))
     except InputError as error:
         text = str(error)
         if text.startswith("axes: "):
@@ -106,9 +89,10 @@ def run(options, axes):
 
 
 def settings_of(coordinate):
-    """Returns the values of an axis as the scenario has them: those with a unit are texts such as "5 MPa"."""
+    """Returns the values of an axis as the scenario has them, such as "5 MPa"."""
     unit = coordinate.attrs.get("units", "")
-    return [f"{value!r}".removesuffix(".0") + f" {unit}" if unit else value for value in coordinate.values.tolist()]
+    return [f"{value!r}".removesuffix(".0") + f" {unit}" if unit else value
+            for value in coordinate.values.tolist()]
 
 
 def rows_of(data):
@@ -117,7 +101,8 @@ def rows_of(data):
     flat = {name: data[name].values.ravel().tolist() for name in data.data_vars}
     points = itertools.product(*(settings_of(data[dim]) for dim in keys))
     for i, point in enumerate(points):
-        yield {**dict(zip(keys.values(), point)), **{name: values[i] for name, values in flat.items()}}
+        yield {**dict(zip(keys.values(), point)),
+               **{name: values[i] for name, values in flat.items()}}
 
 
 def short(value):
@@ -131,17 +116,20 @@ def width_of(columns):
 
 
 def points_of(data, most):
-    """Returns a table of the points as text: the axes, and as many numbers as fit into lines of `most` characters."""
+    """Returns a table of the points: axes, and the numbers that fit into `most` characters."""
     rows = list(itertools.islice(rows_of(data), MOST_ROWS))
     numbers = []
     for name in data.data_vars:
         if name != "failure":
             attrs = data[name].attrs
-            numbers.append([name, attrs.get("dimensional_unit", attrs["units"]), *("failed" if row["failure"] else short(row[name]) for row in rows)])
+            numbers.append([name, attrs.get("dimensional_unit", attrs["units"]),
+                            *("failed" if row["failure"] else short(row[name]) for row in rows)])
 
     def axes(title):
-        keys = {data[dim].attrs["key"]: data[dim].attrs.get("dimensional_unit", "") for dim in data["failure"].dims}
-        return [[title(key), unit, *(short(row[key]) for row in rows)] for key, unit in keys.items()]
+        keys = {data[dim].attrs["key"]: data[dim].attrs.get("dimensional_unit", "")
+                for dim in data["failure"].dims}
+        return [[title(key), unit, *(short(row[key]) for row in rows)]
+                for key, unit in keys.items()]
 
     columns = axes(lambda key: key)
     if width_of(columns + numbers[:1]) > most:
@@ -165,8 +153,11 @@ def report(data, options):
     failed = int((data["failure"] != "").sum())
     if options.json:
         points = [{name: known(value) for name, value in row.items()} for row in rows_of(data)]
-        units = {name: data[name].attrs["units"] for name in data.data_vars if data[name].attrs.get("units", "1") != "1"}
-        print(json.dumps({"command": options.command, "file": file, "failed": failed, "points": points, **({"unit_system": "SI", "units": units} if units else {})}))
+        units = {name: data[name].attrs["units"]
+                 for name in data.data_vars if data[name].attrs.get("units", "1") != "1"}
+        print(json.dumps({"command": options.command, "file": file, "failed": failed,
+                          "points": points,
+                          **({"unit_system": "SI", "units": units} if units else {})}))
     elif options.csv:
         out = csv.writer(sys.stdout, lineterminator="\n")
         for i, row in enumerate(rows_of(data)):
@@ -183,8 +174,6 @@ def report(data, options):
 
 
 def main(argv) -> int:
-    """Runs the sweep and returns the exit code. Raises ValueError for bad input, OSError for files, and ImportError for a missing
-    library."""
     options = arguments(argv)
     axes = axes_of(options.vary)
     file = options.resume or options.output

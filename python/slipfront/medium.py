@@ -3,8 +3,9 @@
 from . import _slipfront
 from ._numbers import broadcasting, one_number
 
-__all__ = ["plastic_contact_ratio", "poisson_ratio", "printed_traction_unit", "slip_velocity_unit", "speed_from_p_wave", "speed_from_s_wave",
-           "speed_from_shear_modulus", "stress_unit", "traction_unit", "units"]
+__all__ = ["plastic_contact_ratio", "poisson_ratio", "printed_traction_unit", "slip_velocity_unit",
+           "speed_from_p_wave", "speed_from_s_wave", "speed_from_shear_modulus", "stress_unit",
+           "traction_unit", "units"]
 
 
 def _each(function, **given):
@@ -35,7 +36,8 @@ def speed_from_shear_modulus(shear_modulus, density, poisson_ratio):
     >>> round(float(slipfront.medium.speed_from_shear_modulus(30e9, 2700, 0.3)))
     5634
     """
-    return _each("speed_from_shear_modulus", shear_modulus=shear_modulus, density=density, poisson_ratio=poisson_ratio)
+    return _each("speed_from_shear_modulus", shear_modulus=shear_modulus, density=density,
+                 poisson_ratio=poisson_ratio)
 
 
 def poisson_ratio(p_wave_speed, s_wave_speed):
@@ -75,16 +77,19 @@ def slip_velocity_unit(speed, contact_ratio):
 
 
 def traction_unit(shear_modulus, poisson_ratio, contact_ratio):
-    """The unit of F and f, mu A^2 / (pi (1 - nu)), in Pa: F = 1 is the force F_d of Eq. (1) on each asperity, one to an area b^2.
+    """The unit of F and f, mu A^2 / (pi (1 - nu)), in Pa: F = 1 is the force F_d of Eq. (1) on each
+    asperity, one to an area b^2.
 
     >>> round(float(slipfront.medium.traction_unit(30e9, 0.3, 0.01)))
     1364185
     """
-    return _each("traction_unit", shear_modulus=shear_modulus, poisson_ratio=poisson_ratio, contact_ratio=contact_ratio)
+    return _each("traction_unit", shear_modulus=shear_modulus, poisson_ratio=poisson_ratio,
+                 contact_ratio=contact_ratio)
 
 
 def printed_traction_unit(shear_modulus, contact_ratio):
-    """The unit of F and f that the paper prints, mu A / (2 pi), in Pa: larger than Eq. (1) gives by (1 - nu) / (2 A).
+    """The unit of F and f that the paper prints, mu A / (2 pi), in Pa: larger than Eq. (1) gives by
+    (1 - nu) / (2 A).
 
     >>> round(float(slipfront.medium.printed_traction_unit(30e9, 0.01)))
     47746483
@@ -93,12 +98,14 @@ def printed_traction_unit(shear_modulus, contact_ratio):
 
 
 def units(shear_modulus, speed, contact_ratio, asperity_spacing):
-    """A dict of the SI value of each dimensionless unit: slip, length, time, strain, stress, slip_velocity, velocity.
-    Arguments are single numbers. The unit of F needs Poisson's ratio too: traction_unit.
+    """A dict of the SI value of each dimensionless unit: slip, length, time, strain, stress,
+    slip_velocity, velocity. Arguments are single numbers. The unit of F needs Poisson's ratio too:
+    traction_unit.
 
     >>> units = slipfront.medium.units(30e9, 5421, 0.01, 1e-3)
     >>> round(units["length"], 6)
     0.1
     """
-    given = {"shear_modulus": shear_modulus, "speed": speed, "contact_ratio": contact_ratio, "asperity_spacing": asperity_spacing}
+    given = {"shear_modulus": shear_modulus, "speed": speed, "contact_ratio": contact_ratio,
+             "asperity_spacing": asperity_spacing}
     return _slipfront.units(*(one_number(name, value) for name, value in given.items()))

@@ -1,21 +1,26 @@
-"""The uniform train of dislocations (Eqs. 4-5) and the closed-form slip pulse (Eqs. 8-9), vectorised.
+"""The uniform train of dislocations (Eqs. 4-5) and the closed-form slip pulse (Eqs. 8-9),
+vectorised.
 
-A train is two numbers: phi, with U = tanh(phi) the velocity of the dislocations in c, and psi >= 0, with sqrt(1 - m) =
-tanh(psi) of the elliptic parameter m; psi = 0 is the empty interface. Arguments broadcast as in numpy; results are
-Datasets over "state", dim_0 ..., or the dimensions of the first argument that is a DataArray.
+A train is two numbers: phi, with U = tanh(phi) the velocity of the dislocations in c, and psi >= 0,
+with sqrt(1 - m) = tanh(psi) of the elliptic parameter m; psi = 0 is the empty interface. Arguments
+broadcast as in numpy; results are Datasets over "state", dim_0 ..., or the dimensions of the first
+argument that is a DataArray.
 """
 
 from . import _slipfront
 from ._dataset import of_columns
+from ._dataset import profile as _profile
 from ._numbers import flat, one_number
 from ._slipfront import InputError
 
-__all__ = ["averages", "edge_speeds", "fields", "jacobi", "profile", "psi_at_rest", "spacing", "stress_at_rest"]
+__all__ = ["averages", "edge_speeds", "fields", "jacobi", "profile", "psi_at_rest", "spacing",
+           "stress_at_rest"]
 
 
 def averages(phi, psi, contact=1.0):
-    """Averages over a period: k (= stress Sigma), W, <sigma^2>, <sigma^3>, <1 - cos u>, and the densities and fluxes P,
-    Q, H, I, J of the conservation laws (Eqs. 5-7), where the relative contact ratio is `contact` > 0.
+    """Averages over a period: k (= stress Sigma), W, <sigma^2>, <sigma^3>, <1 - cos u>, and the
+    densities and fluxes P, Q, H, I, J of the conservation laws (Eqs. 5-7), where the relative
+    contact ratio is `contact` > 0.
 
     >>> round(float(slipfront.train.averages(0.1, 1.0).W), 4)
     0.271
@@ -25,8 +30,9 @@ def averages(phi, psi, contact=1.0):
 
 
 def edge_speeds(edges):
-    """Speeds of the edges of the bands of rapidities that N trains at one position fill, in c, as an array. `edges` are the
-    2 N rapidities, rising: band, gap, band ... band (docs/theory/9_trains.md 9.1). A width may be 0.
+    """Speeds of the edges of the bands of rapidities that N trains at one position fill, in c, as
+    an array. `edges` are the 2 N rapidities, rising: band, gap, band ... band
+    (docs/theory/9_trains.md 9.1). A width may be 0.
 
     >>> slipfront.train.edge_speeds([-0.1, 0.05, 0.2, 0.45]).round(4).tolist()
     [-0.5541, -0.0799, 0.1358, 0.7522]
@@ -38,7 +44,8 @@ def edge_speeds(edges):
 
 
 def fields(phi, psi, xi):
-    """Slip u, stress sigma and slip velocity w at xi = x - U t from the centre of a dislocation (Eq. 4). psi > 0.
+    """Slip u, stress sigma and slip velocity w at xi = x - U t from the centre of a dislocation
+    (Eq. 4). psi > 0.
 
     >>> round(float(slipfront.train.fields(0.1, 1.0, 0.0).sigma), 4)
     3.1016
@@ -88,8 +95,9 @@ def stress_at_rest(psi):
 
 
 def profile(stress, x_over_t, stress_right=0.0):
-    """The frictionless pulse that a step of stress becomes (Eqs. 8-9; where the right side is stressed, the exact Riemann
-    problem, with two trains at one position): U, Sigma, W and P at x/t in c. Attributes left_edge and right_edge are x/t of the edges of what moves.
+    """The frictionless pulse that a step of stress becomes (Eqs. 8-9; where the right side is
+    stressed, the exact Riemann problem, with two trains at one position): U, Sigma, W and P at x/t
+    in c. Attributes left_edge and right_edge are x/t of the edges of what moves.
 
     >>> slipfront.train.profile(0.855, [-0.1, 0.0, 0.1]).W.round(4).values.tolist()
     [0.0436, 0.0482, 0.026]
@@ -97,8 +105,7 @@ def profile(stress, x_over_t, stress_right=0.0):
     left, right = one_number("stress", stress), one_number("stress_right", stress_right)
     (x,), *rest = flat(x_over_t=x_over_t)
     (left_edge, right_edge), _, _, _, at, _ = _slipfront.riemann_trains(left, 0.0, right, 0.0)
-    data = of_columns(_slipfront.profile_described, at(x)[:len(_slipfront.profile_described)], *rest)
-    if rest[1] == ("state",):
-        data = data.rename(state="x_over_t").assign_coords(
-            x_over_t=("x_over_t", x, {"long_name": "x / t", "units": "1", "dimensional_unit": "c"}))
-    return data.assign_attrs(stress=left, stress_right=right, left_edge=left_edge, right_edge=right_edge)
+    described = _slipfront.profile_described
+    data = _profile(described, at(x)[:len(described)], x, *rest)
+    return data.assign_attrs(stress=left, stress_right=right, left_edge=left_edge,
+                             right_edge=right_edge)

@@ -90,8 +90,8 @@ class Conversion(unittest.TestCase):
         pulse = slipfront.pulse(STEP)
         for says, change in [("missing constants: spacing", {"spacing": None}), ("missing constants: shear_modulus, poisson_ratio, p_wave_speed", {"medium": None}),
                              ("p_wave_speed", {"medium": {"shear_modulus": 1, "poisson_ratio": 0}}), ("'modulus': unknown", {"medium": {"modulus": 1}}),
-                             ("not a dict", {"medium": 3}), ("unit is unknown", {"spacing": "1 foot"}), ("of another quantity", {"spacing": "1 s"}),
-                             ("not a number", {"spacing": "wide"}), ("at most 1", {"contact_ratio": 1.5}), ("positive", {"spacing": -1}),
+                             ("not a dict", {"medium": 3}), ("unknown unit", {"spacing": "1 parsnip"}), ("is not that of a", {"spacing": "1 s"}),
+                             ("not a finite number", {"spacing": "wide"}), ("at most 1", {"contact_ratio": 1.5}), ("positive", {"spacing": -1}),
                              ("not one number", {"spacing": [1, 2]}), ("below 0.5", {"medium": {**ROCK, "poisson_ratio": 0.5}})]:
             with self.subTest(says), self.assertRaises(slipfront.InputError) as caught:
                 si(pulse, **change)
@@ -114,7 +114,7 @@ class Units(unittest.TestCase):
                 _units.in_si(text, VALUES)
 
     def test_reads_units_with_prefixes(self):
-        for text, key, value in [("30 GPa", "shear_modulus", 30e9), ("300 kbar", "shear_modulus", None), ("6km/s", "p_wave_speed", 6000), ("6 km s-1", "p_wave_speed", 6000),
+        for text, key, value in [("30 GPa", "shear_modulus", 30e9), ("300 kbar", "shear_modulus", 3e10), ("1 foot", "asperity_spacing", 0.3048), ("3-4 m", "asperity_spacing", None), ("6km/s", "p_wave_speed", 6000), ("6 km s-1", "p_wave_speed", 6000),
                                  ("10 km/day", "p_wave_speed", 10000 / 86400), ("2.7 g/cm^3", "density", 2700), ("2700 kg m-3", "density", 2700), ("20 um", "asperity_spacing", 2e-5),
                                  ("1e-3 m", "asperity_spacing", 1e-3), ("0.01", "contact_ratio", 0.01)]:
             if value is None:

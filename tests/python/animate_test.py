@@ -11,7 +11,7 @@ from PIL import Image
 from commands import PythonCommands, run_here
 import slipfront
 from slipfront.plots.animation import Scene
-from slipfront.plots.dislocations import positions
+from slipfront.plots.animation import positions
 from slipfront.plots.plane_animation import PlaneScene
 from support import SOURCE, run
 

@@ -13,8 +13,10 @@ import pandas
 from commands import PythonCommands
 import slipfront
 from slipfront.__main__ import run as run_in_this_process
-from slipfront import _laboratory, _laboratory_table, _slipfront
-from slipfront._hardness_posterior import Evidence, Posterior
+from slipfront import _slipfront
+from slipfront._population import fronts as tables
+from slipfront._population import laboratory
+from slipfront._population.hardness import Evidence, Posterior
 from support import SOURCE, run
 
 FRONTS = os.path.join(SOURCE, "cases", "synthetic-laboratory-fronts.csv")
@@ -38,7 +40,7 @@ def measured(text, dimension):
 
 
 def front(shear, normal, velocity, drop=None):
-    return _laboratory_table.Front("a", 1, measured(shear, "pressure"), measured(normal, "pressure"), measured(velocity, "velocity"), drop and measured(drop, "pressure"))
+    return tables.Front("a", 1, measured(shear, "pressure"), measured(normal, "pressure"), measured(velocity, "velocity"), drop and measured(drop, "pressure"))
 
 
 def ratio_of(found, other):
@@ -88,7 +90,7 @@ class BruteForce(unittest.TestCase):
             weight *= one.front_velocity.likelihood(velocity_of(ln_stress))
             if one.stress_drop is not None:
                 weight *= one.stress_drop.likelihood(shear * np.interp(ln_stress, LN_STRESS, SHARES))
-        posterior = _laboratory._Analysis(fronts, SPEED, PLASTIC, prior, scatter_prior).posterior
+        posterior = laboratory._Analysis(fronts, SPEED, PLASTIC, prior, scatter_prior).posterior
         effective = weight.sum() ** 2 / (weight**2).sum()
         self.assertGreater(effective, 2000)
         for values, found in zip((y, ln_s), posterior.quantiles([0.05, 0.5, 0.95])):
@@ -116,7 +118,7 @@ class Calibration(unittest.TestCase):
         covered = np.zeros(2, dtype=int)
         for _ in range(200):
             y, ln_s = random.uniform(*np.log(prior)), random.uniform(*np.log(scatter_prior))
-            posterior = _laboratory._Analysis(self.fronts(y, ln_s, random), SPEED, PLASTIC, prior, scatter_prior).posterior
+            posterior = laboratory._Analysis(self.fronts(y, ln_s, random), SPEED, PLASTIC, prior, scatter_prior).posterior
             covered += [0.05 < posterior.share_below(y) < 0.95, 0.05 < posterior.share_of_scatter_below(ln_s) < 0.95]
         for count in covered:
             self.assertTrue(180 - 3 * 4.3 <= count <= 180 + 3 * 4.3, covered)

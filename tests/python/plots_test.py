@@ -13,7 +13,7 @@ from commands import PythonCommands
 import slipfront
 from slipfront import plots
 from slipfront.plots import choose, files
-from slipfront.plots.between import between
+from slipfront.plots.space_time import between
 from slipfront.plots.pulse_parts import title_of
 from slipfront.plots.style import label, plain_numbers, prefix_axes
 from support import SOURCE

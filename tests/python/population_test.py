@@ -14,8 +14,7 @@ from scipy import special
 from commands import PythonCommands
 import slipfront
 import support
-from slipfront import _hierarchy
-from slipfront._population import forward, priors, rows, sample, synthetic
+from slipfront._population import forward, hierarchy, priors, rows, sample, synthetic
 from slipfront._population.likelihood import Likelihood
 
 SOURCE = pathlib.Path(support.SOURCE)
@@ -150,7 +149,7 @@ class Catalogues(PythonCommands):
 
     def test_reads_moments_and_lengths(self):
         text = self.ROWS + "\n".join(("a,x,3 +- 0.3,,1,,,,10", "b,x,,30 */ 1.2,,1e19 */ 1.5,,20,10 */ 1.1", "c,y,,30,,,6.6,20,10", "d,y,2,,,1e19,,,10")) + "\n"
-        found, left_out = _hierarchy._read(text, None, ["", "", ""], {"velocity": 0.2, "size": 0.4})
+        found, left_out = hierarchy._read(text, None, ["", "", ""], {"velocity": 0.2, "size": 0.4})
         self.assertEqual(left_out, [("d", "no slip, and no moment with a width")])
         events = rows.arrays(found, {})
         self.assertEqual(events.study.tolist(), [0, 0, 1])
@@ -174,7 +173,7 @@ class Catalogues(PythonCommands):
 
     def test_a_bad_row_is_left_out_with_its_reason(self):
         text = self.ROWS + "".join(f"e{i},x,3,,{i},,,,10\n" for i in range(1, 5)).replace("3,,1,,,,10", "3,,1,,,1 kg,10")
-        found, left_out = _hierarchy._read(text, None, ["", "", ""], {"velocity": 0.2, "size": 0.4})
+        found, left_out = hierarchy._read(text, None, ["", "", ""], {"velocity": 0.2, "size": 0.4})
         self.assertEqual(([entry["name"] for entry in found], left_out[0][0]), (["e2", "e3", "e4"], "e1"))
         self.assertIn("events:2: width_km = '1 kg'", left_out[0][1])
 

@@ -1,1 +1,1 @@
-"""A hierarchical model of many events: the parts of slipfront.population."""
+"""Inference from many events or fronts: slipfront.population and slipfront.laboratory."""

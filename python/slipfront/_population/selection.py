@@ -20,8 +20,9 @@ _kappa_weights = np.exp(-0.5 * _kappa_places**2) / np.exp(-0.5 * _kappa_places**
 
 
 def _stress_nodes(stress, spread):
-    """Returns nodes of ln(Sigma-) within the table, and their weights for a normal distribution; the weights are NaN if it is outside the table."""
-    low, high = (np.clip(np.log(stress) + reach * spread, forward.LOG_STRESS[0], forward.LOG_STRESS[-1]) for reach in (-REACH, REACH))
+    """Returns nodes of ln(Sigma-) and normal weights, which are NaN outside the table."""
+    low, high = (np.clip(np.log(stress) + reach * spread, forward.LOG_STRESS[0],
+                         forward.LOG_STRESS[-1]) for reach in (-REACH, REACH))
     places, weights = _legendre[int(spread > WIDE)]
     places = (low + high) / 2 + (high - low) / 2 * places
     weights = weights * np.exp(-0.5 * np.square((places - np.log(stress)) / spread))
@@ -30,11 +31,12 @@ def _stress_nodes(stress, spread):
 
 
 class Selection:
-    """Detection of the events of a catalogue. An event enters it if its observed size is above `events.smallest`."""
+    """Detection: a catalogue has the events whose observed size is above events.smallest."""
 
     def __init__(self, events):
         if len(np.unique(events.kind)) > 1:
-            raise ValueError("events of a catalogue with a detection limit must all have the same kind of size")
+            raise ValueError("events of a catalogue with a detection limit must all have the same "
+                             "kind of size")
         self.events, self.kind = events, events.kind[0]
         self.place = events.log_duration + np.log(events.speed)
         low, high = self.place.min() - 1e-3, self.place.max() + 1e-3
@@ -44,36 +46,44 @@ class Selection:
         self.any_single = (np.bincount(events.study)[events.study] == 1).any()
 
     def _sizes(self, values, log_hardness):
-        """Returns sizes without scatter at the nodes of stress and kappa (second axis) for each duration of the grid, and their weights."""
+        """Returns sizes without scatter by duration and node of (stress, kappa), and weights."""
         stress, stress_spread, normal, normal_spread, friction, friction_spread, _ = values
         contact, variance = np.log(normal) - log_hardness, normal_spread**2 + friction_spread**2
         log_stress, stress_weights = _stress_nodes(stress, stress_spread)
         off = np.sqrt(variance) * _kappa_places
         kappa = contact + np.log(friction) + off
-        sizes = forward.at(forward.size(self.kind), log_stress[:, None, None], (kappa[None, :, None] + self.grid[None, None, :]))
+        sizes = forward.at(forward.size(self.kind), log_stress[:, None, None],
+                           (kappa[None, :, None] + self.grid[None, None, :]))
         sizes = sizes + (contact + normal_spread**2 / variance * off)[None, :, None]
         weights = stress_weights[:, None] * _kappa_weights
-        return sizes.reshape(-1, len(self.grid)).T, weights.ravel(), normal_spread * friction_spread / np.sqrt(variance)
+        return (sizes.reshape(-1, len(self.grid)).T, weights.ravel(),
+                normal_spread * friction_spread / np.sqrt(variance))
 
     def _table(self, sizes, weights, deviation):
-        """Returns a spline of ln of the probability of a size above a limit, in ln(duration) and the limit."""
-        ndtr, spline = import_optional("scipy.special").ndtr, import_optional("scipy.interpolate").RectBivariateSpline
-        return spline(self.grid, self.limits, np.log(np.maximum(np.tensordot(ndtr((sizes[:, :, None] - self.limits) / deviation), weights, axes=(1, 0)), 1e-12)))
+        """Returns a spline of ln P(size > limit), in ln(duration) and the limit."""
+        ndtr = import_optional("scipy.special").ndtr
+        spline = import_optional("scipy.interpolate").RectBivariateSpline
+        above = ndtr((sizes[:, :, None] - self.limits) / deviation)
+        probability = np.tensordot(above, weights, axes=(1, 0))
+        return spline(self.grid, self.limits, np.log(np.maximum(probability, 1e-12)))
 
     def prepare(self, values, log_hardness):
-        """Computes the probabilities for these parameters. Returns whether enough events of this population would enter the catalogue."""
+        """Computes the probabilities. Returns whether enough events enter the catalogue."""
         sizes, weights, scatter = self._sizes(values, log_hardness)
         if not np.isfinite(weights).all():
             return False
         reach = values[-1] * STUDY_REACH + 1e-3
-        self.limits = np.linspace(self.events.smallest.min() - reach, self.events.smallest.max() + reach, SIZE_NODES)
+        self.limits = np.linspace(self.events.smallest.min() - reach,
+                                  self.events.smallest.max() + reach, SIZE_NODES)
         deviations = {level: np.hypot(level, scatter) for level in self.levels}
-        self.together = {level: self._table(sizes, weights, deviation) for level, deviation in deviations.items()}
-        self.alone = {level: self._table(sizes, weights, np.hypot(deviation, values[-1])) if self.any_single else None for level, deviation in deviations.items()}
+        self.together = {level: self._table(sizes, weights, deviation)
+                         for level, deviation in deviations.items()}
+        self.alone = {level: self._table(sizes, weights, np.hypot(deviation, values[-1]))
+                      if self.any_single else None for level, deviation in deviations.items()}
         return self.log_probability(np.zeros(1), slice(None)).min() > np.log(LEAST)
 
     def log_probability(self, offsets, chosen, single=False):
-        """Returns ln of the probability that each chosen event is detected (first axis), for each offset of its study (second axis)."""
+        """Returns ln P(detected) of each chosen event, for each offset of its study."""
         limit = self.events.smallest[chosen][:, None] - offsets[None, :]
         place = np.broadcast_to(self.place[chosen][:, None], limit.shape)
         out = np.empty(limit.shape)

@@ -1,4 +1,5 @@
-"""Pictures with matplotlib. Each function takes a Dataset and returns a matplotlib Figure; `save` writes one.
+"""Pictures with matplotlib. Each function takes a Dataset and returns a matplotlib Figure; `save`
+writes one.
 
 The kinds of picture are those of `choose.KINDS`, each a function in a file of its name.
 """

@@ -1,4 +1,4 @@
-"""Draws the slip events of a run that springs load: slip against length, and stress drop against the time since the event before."""
+"""Draws slip events: slip against length, stress drop against the time between events."""
 
 import numpy
 
@@ -10,18 +10,16 @@ from .style import Picture, label, plain_numbers, scaled, styled
 
 @styled
 def catalogue(run) -> Picture:
-    """Draws the slip of each event against its length, and its stress drop against the time since the event before.
+    """Draws the slip of each event against its length, and its stress drop against the time since
+    the event before.
 
-    An axis whose values span more than a decade is logarithmic, not counting events that the end of the run cuts. These have open symbols.
+    An axis whose values span more than a decade is logarithmic, not counting events that the end of
+    the run cuts. These have open symbols.
 
     Parameters
     ----------
     run : xarray.Dataset
         Result of `slipfront.chain` with a table [loading], with slip events.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
 
     Raises
     ------
@@ -29,8 +27,10 @@ def catalogue(run) -> Picture:
 
     Examples
     --------
-    >>> figure = slipfront.plots.catalogue(slipfront.chain(slipfront.cases / "stick-slip.toml", set={
-    ...     "domain.left": -12, "domain.right": 12, "time.end": 4e5, "output.every": 1e5, "pulse.cells": 4}))
+    >>> chain = slipfront.chain(slipfront.cases / "stick-slip.toml", set={
+    ...     "domain.left": -12, "domain.right": 12, "time.end": 4e5, "output.every": 1e5,
+    ...     "pulse.cells": 4})
+    >>> figure = slipfront.plots.catalogue(chain)
     >>> figure.axes[0].get_xlabel()
     'length, b/A'
     """
@@ -38,12 +38,15 @@ def catalogue(run) -> Picture:
     figure = Picture(figsize=(7.0, 3.3))
     left, right = figure.subplots(1, 2)
     complete = run["event_complete"].values > 0
-    scatter(left, run["event_length"], run["event_slip"], run["event_length"].values, run["event_slip"].values, complete)
+    scatter(left, run["event_length"], run["event_slip"], run["event_length"].values,
+            run["event_slip"].values, complete)
     since = numpy.diff(run["event_onset"].values)
     drop = run["event_stress_drop"]
-    scatter(right, run["event_onset"], drop, since, drop.values[1:], complete[1:], "time since the event before")
+    scatter(right, run["event_onset"], drop, since, drop.values[1:], complete[1:],
+            "time since the event before")
     if since.size == 0:
-        right.set(xlim=(0, 1), ylim=(0, 1), xticks=[], yticks=[], xlabel=label(run["time"], "time since the event before"), ylabel=label(drop))
+        right.set(xlim=(0, 1), ylim=(0, 1), xticks=[], yticks=[],
+                  xlabel=label(run["time"], "time since the event before"), ylabel=label(drop))
         say(right, "one event only")
     if not complete.all():
         left.legend(loc="upper left", bbox_to_anchor=(0.0, -0.2), ncol=2, borderaxespad=0)
@@ -53,12 +56,15 @@ def catalogue(run) -> Picture:
 
 def scatter(axes, across, up, x, y, complete, name="") -> None:
     """Draws y against x, and chooses the scales and labels of the axes."""
-    for chosen, fill, text in ((complete, "C0", "event"), (~complete, "white", "event that the end of the run cuts")):
+    for chosen, fill, text in ((complete, "C0", "event"),
+                               (~complete, "white", "event that the end of the run cuts")):
         if chosen.any():
-            axes.plot(x[chosen], y[chosen], linestyle="none", marker="o", color="C0", markerfacecolor=fill, label=text, alpha=0.8)
+            axes.plot(x[chosen], y[chosen], linestyle="none", marker="o", color="C0",
+                      markerfacecolor=fill, label=text, alpha=0.8)
     if x.size == 0:
         return
-    for axis, variable, values, text in ((axes.xaxis, across, x, label(across, name)), (axes.yaxis, up, y, label(up))):
+    for axis, variable, values, text in ((axes.xaxis, across, x, label(across, name)),
+                                         (axes.yaxis, up, y, label(up))):
         whole = values[complete] if complete.any() else values
         if values.min() > 0 and spans_decades(whole):
             (axes.set_xscale if axis is axes.xaxis else axes.set_yscale)("log")
@@ -70,6 +76,6 @@ def scatter(axes, across, up, x, y, complete, name="") -> None:
 
 
 def from_zero(axes, axis, values) -> None:
-    """Makes a linear axis begin at zero, so that equal values do not look different, unless values are negative."""
+    """Lets a linear axis begin at zero unless values are negative: equal ones look equal."""
     if values.min() >= 0 and values.max() > 0:
         (axes.set_xlim if axis is axes.xaxis else axes.set_ylim)(0, 1.1 * values.max())

@@ -4,7 +4,8 @@ import importlib
 
 from .loaded_parts import is_loaded
 
-#: For each kind of picture: the function of this package, and the dimensions and variables that a Dataset must have.
+#: For each kind of picture: the function of this package, and the dimensions and variables that a
+#: Dataset must have.
 KINDS = {
     "plane": ("plane", {"time", "x", "y", "series_time", "rupture_time", "moment_rate"}),
     "fault": ("fault", {"along_strike", "down_dip", "slip", "rupture_time"}),
@@ -25,8 +26,7 @@ KINDS = {
 
 
 def kinds_of(dataset) -> list:
-    """Returns the kinds of picture for which the Dataset has all variables, the most informative first. A comparison and a
-    rupture on a plane have only the first kind."""
+    """Returns the kinds of picture of a Dataset; only the first of a comparison or a plane."""
     there = set(dataset.variables) | set(dataset.dims)
     kinds = [kind for kind, (_, wanted) in KINDS.items() if wanted <= there]
     if {"draw", "draw_rupture_velocity"} <= there and dataset.sizes["event"] == 1:
@@ -39,7 +39,7 @@ def kinds_of(dataset) -> list:
 
 
 def draw(dataset, kind: str, **options):
-    """Draws a picture of a kind in kinds_of(dataset) with the options of its function. Returns a Figure."""
+    """Returns the Figure of a kind in kinds_of(dataset), with the options of its function."""
     function = KINDS[kind][0]
     drawing = getattr(importlib.import_module(f".{function}", __package__), function)
     if kind == "events":
@@ -48,13 +48,15 @@ def draw(dataset, kind: str, **options):
 
 
 def line_through(events):
-    """Returns the closed form for rupture velocities from a tenth of the slowest event's to just above the fastest event's."""
+    """Returns the closed form for the rupture velocities of the events."""
     import numpy
 
     from .. import relations
 
     velocity = events["rupture_velocity"].dropna(events["rupture_velocity"].dims[0])
     if velocity.size == 0:
-        raise ValueError("no event has a rupture velocity; allowed: events that were read without error")
+        raise ValueError("no event has a rupture velocity; allowed: events that were read without "
+                         "error")
     slowest, fastest = float(velocity.min()), float(velocity.max())
-    return relations(rupture_velocity=numpy.geomspace(slowest / 10, min(1.4 * fastest, (1 + fastest) / 2), 300))
+    return relations(rupture_velocity=numpy.geomspace(slowest / 10,
+                                                      min(1.4 * fastest, (1 + fastest) / 2), 300))

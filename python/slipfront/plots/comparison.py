@@ -15,7 +15,8 @@ LEVELS: dict[str, dict[str, Any]] = {
 
 @styled
 def comparison(levels, fields=("W", "Sigma", "slip")) -> Picture:
-    """Profiles of the levels at the last time, and slip at x = 0 on each: over time, or at the end where there are few times.
+    """Profiles of the levels at the last time, and slip at x = 0 on each: over time, or at the end
+    where there are few times.
 
     Parameters
     ----------
@@ -57,5 +58,6 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Picture:
     panels[0, 1].legend()
     if "pulse-consistent" in names:
         mark_fronts(panels[0, 0], levels.isel(level=names.index("pulse-consistent")))
-    figure.suptitle(f"{title_of(levels, 60)}, t = {quantity(levels['time'], float(levels['time'][-1]))}")
+    figure.suptitle(f"{title_of(levels, 60)}, t = "
+                    f"{quantity(levels['time'], float(levels['time'][-1]))}")
     return figure

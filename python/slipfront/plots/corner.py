@@ -11,55 +11,66 @@ STATES = ("stress", "contact_ratio", "stress_pa", "damping_number", "friction_co
 
 
 def levels_of(counts, shares=(0.9, 0.5)) -> list:
-    """Returns the levels of a histogram. The bins with counts at or above a level hold one of the shares of all samples. Equal levels
-    are merged, and the result ascends."""
+    """Returns rising levels of a histogram at or above which the bins hold `shares` of all."""
     ordered = numpy.sort(counts.ravel())[::-1]
     held = numpy.cumsum(ordered) / ordered.sum()
-    return sorted({float(ordered[min(numpy.searchsorted(held, share), ordered.size - 1)]) for share in shares})
+    return sorted({float(ordered[min(numpy.searchsorted(held, share), ordered.size - 1)])
+                   for share in shares})
 
 
 def scale_of(values) -> str:
-    """Returns the scale of a quantity's axis: "log" if all values are positive and the largest is more than 30 times the smallest."""
+    """Returns "log" if the values are positive and span a factor of more than 30."""
     return "log" if values.min() > 0 and values.max() > 30 * values.min() else "linear"
 
 
 def bins_of(values, count):
     """Returns the edges of a quantity's bins. The bins are equally wide on its axis."""
     ends = values.min(), values.max()
-    return numpy.geomspace(*ends, count + 1) if scale_of(values) == "log" else numpy.linspace(*ends, count + 1)
+    if scale_of(values) == "log":
+        return numpy.geomspace(*ends, count + 1)
+    return numpy.linspace(*ends, count + 1)
 
 
 def drawn(dataset):
-    """Returns as samples the draws of an event, from a file that `slipfront event --draws` wrote or from its group "posterior" or "prior".
+    """Returns as samples the draws of an event, from a file that `slipfront event --draws` wrote or
+    from its group "posterior" or "prior".
 
-    The samples have those quantities of STATES that vary. Raises ValueError unless the file holds draws of exactly one event.
+    The samples have those quantities of STATES that vary. Raises ValueError unless the file holds
+    draws of exactly one event.
     """
     start = "draw_" if "draw_rupture_velocity" in dataset else ""
     dataset = dataset.transpose("event", ...)
-    with_draws = [i for i in range(dataset.sizes["event"]) if bool(dataset[f"{start}rupture_velocity"][i].notnull().any())]
+    with_draws = [i for i in range(dataset.sizes["event"])
+                  if bool(dataset[f"{start}rupture_velocity"][i].notnull().any())]
     if len(with_draws) != 1:
-        raise ValueError(f"draws of {len(with_draws)} events: a corner plot shows one; allowed: a file of one event, or .isel(event=[row])")
-    chosen = {name: dataset[f"{start}{name}"][with_draws[0]].rename(name) for name in STATES if f"{start}{name}" in dataset}
-    varied = {name: values for name, values in chosen.items() if bool(values.notnull().all()) and float(values.max()) > float(values.min()) * (1 + 1e-9)}
-    return xarray.Dataset({name: values.assign_attrs(long_name="") for name, values in varied.items()})
+        raise ValueError(f"draws of {len(with_draws)} events: a corner plot shows one; allowed: a "
+                         "file of one event, or .isel(event=[row])")
+    chosen = {name: dataset[f"{start}{name}"][with_draws[0]].rename(name)
+              for name in STATES if f"{start}{name}" in dataset}
+    varied = {name: values for name, values in chosen.items() if bool(values.notnull().all())
+              and float(values.max()) > float(values.min()) * (1 + 1e-9)}
+    return xarray.Dataset({name: values.assign_attrs(long_name="")
+                           for name, values in varied.items()})
 
 
 def in_megapascal(variable):
     """Converts a stress from Pa to MPa. Returns any other quantity unchanged."""
-    return (variable / 1e6).assign_attrs(units="MPa").rename(variable.name) if unit(variable) == "Pa" else variable
+    return ((variable / 1e6).assign_attrs(units="MPa").rename(variable.name)
+            if unit(variable) == "Pa" else variable)
 
 
 def smoothed(counts):
-    """Returns the counts of a histogram, averaged with their neighbours (weights 1, 2, 1 in both directions) for smooth contour lines."""
+    """Returns counts averaged with their neighbours (1, 2, 1) for smooth contour lines."""
     for axis in (0, 1):
         padded = numpy.pad(counts, [(1, 1) if a == axis else (0, 0) for a in (0, 1)], mode="edge")
         n = counts.shape[axis]
-        counts = sum(weight * numpy.take(padded, range(start, start + n), axis) for start, weight in ((0, 0.25), (1, 0.5), (2, 0.25)))
+        counts = sum(weight * numpy.take(padded, range(start, start + n), axis)
+                     for start, weight in ((0, 0.25), (1, 0.5), (2, 0.25)))
     return counts
 
 
 def alone(axes, values, edges, name) -> None:
-    """Draws the histogram of one quantity. Lines and the title give its median and the interval from 5 % to 95 %."""
+    """Draws the histogram of one quantity, with its median, 5 % and 95 %."""
     axes.hist(values, edges, color="C0", alpha=0.6)
     low, middle, high = numpy.percentile(values, (5, 50, 95))
     for value, line in ((low, ":"), (middle, "-"), (high, ":")):
@@ -69,14 +80,17 @@ def alone(axes, values, edges, name) -> None:
 
 
 def pair(axes, across, up) -> None:
-    """Draws the density of a pair of quantities and the contours that enclose 50 % and 90 % of the samples.
+    """Draws the density of a pair of quantities and the contours that enclose 50 % and 90 % of the
+    samples.
 
-    across, up: (values, edges of the bins) of the quantity on the horizontal and on the vertical axis.
+    across, up: (values, edges of the bins) of the quantity on the horizontal and on the vertical
+    axis.
     """
     counts, *edges = numpy.histogram2d(across[0], up[0], (across[1], up[1]))
     axes.pcolormesh(*edges, counts.T, cmap="Blues", rasterized=True)
     counts = smoothed(counts)
-    axes.contour(*((e[1:] + e[:-1]) / 2 for e in edges), counts.T, levels_of(counts), colors="black", linewidths=0.8)
+    axes.contour(*((e[1:] + e[:-1]) / 2 for e in edges), counts.T, levels_of(counts),
+                 colors="black", linewidths=0.8)
     axes.set(yscale=scale_of(up[0]), ylim=(up[1][0], up[1][-1]))
 
 
@@ -93,26 +107,24 @@ def ticks(axis, scale) -> None:
 def corner(samples, names=None, bins: int = 30) -> Picture:
     """Draws a corner plot of samples.
 
-    The histogram of each quantity shows its median and the interval from 5 % to 95 %. That of each pair of quantities shows the regions that
-    hold 50 % and 90 % of the samples.
+    The histogram of each quantity shows its median and the interval from 5 % to 95 %. That of each
+    pair of quantities shows the regions that hold 50 % and 90 % of the samples.
 
     Parameters
     ----------
     samples : xarray.Dataset
-        Variables that have their dimensions in common, with 20 samples or more; or the draws of one event, which
-        `slipfront event --draws` wrote, or their group "posterior" or "prior" as `slipfront.open` reads it. Samples in which one of the variables is not finite are left out.
+        Variables that have their dimensions in common, with 20 samples or more; or the draws of one
+        event, which `slipfront event --draws` wrote, or their group "posterior" or "prior" as
+        `slipfront.open` reads it. Samples in which one of the variables is not finite are left out.
     names : sequence of str, optional
         The variables to draw, in this order. By default all that are numbers.
     bins : int, optional
         Number of bins of each histogram.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-
     Raises
     ------
-    ValueError if there are fewer than 20 finite samples, or if a quantity has the same value in all of them.
+    ValueError if there are fewer than 20 finite samples, or if a quantity has the same value in all
+    of them.
 
     Examples
     --------
@@ -123,28 +135,32 @@ def corner(samples, names=None, bins: int = 30) -> Picture:
     >>> len(figure.axes) >= 3
     True
     """
-    name = next((name for name in ("name", "event_name") if "draw" in samples.dims and name in samples.variables), None)
-    title = f"{plain(samples[name].values.ravel()[0])}, {'posterior' if name == 'name' else 'draws'}: " if name else ""
+    name = next((name for name in ("name", "event_name")
+                 if "draw" in samples.dims and name in samples.variables), None)
+    title = (f"{plain(samples[name].values.ravel()[0])}, "
+             f"{'posterior' if name == 'name' else 'draws'}: " if name else "")
     samples = drawn(samples) if "draw" in samples.dims else samples
     names = list(names or (name for name in samples.data_vars if samples[name].dtype.kind in "fiu"))
     variables = [in_megapascal(samples[name]) for name in names]
     table = numpy.array([variable.values.astype(float).ravel() for variable in variables])
     table = table[:, numpy.isfinite(table).all(axis=0)] if names else table
     if table.size == 0 or table.shape[1] < 20:
-        raise ValueError(f"samples = {table.shape[-1]}: too few for a corner plot; allowed: 20 or more that are finite")
+        raise ValueError(f"samples = {table.shape[-1]}: too few for a corner plot; allowed: 20 or "
+                         "more that are finite")
     for name, values in zip(names, table):
         if values.min() == values.max():
-            raise ValueError(f"{name} = {values[0]:g} in every sample; allowed: quantities that vary")
+            raise ValueError(f"{name} = {values[0]:g} in every sample; allowed: quantities that "
+                             "vary")
     labels = [label(variable) for variable in variables]
     figure = Picture(figsize=(1.4 + 2.0 * len(names), 1.2 + 1.9 * len(names)))
     fill(figure.subplots(len(names), len(names), squeeze=False), table, labels, bins)
-    figure.suptitle(title + "median [5 %, 95 %], lines at 50 and 90 %", fontsize="small" if len(names) < 3 else "medium")
+    figure.suptitle(title + "median [5 %, 95 %], lines at 50 and 90 %",
+                    fontsize="small" if len(names) < 3 else "medium")
     return figure
 
 
 def fill(panels, table, labels, bins) -> None:
-    """Draws all panels. table: array of quantities x samples. labels: name and unit of each quantity, for the outer axes and above
-    each histogram."""
+    """Draws all panels. table: quantities x samples. labels: name and unit of each quantity."""
     edges = [bins_of(values, bins) for values in table]
     for (row, column), axes in numpy.ndenumerate(panels):
         if column > row:

@@ -1,4 +1,4 @@
-"""Draws the subfaults of a finite-fault model: slip, rupture time, rise time and static stress drop."""
+"""Draws a finite-fault model: slip, rupture time, rise time and static stress drop."""
 
 import numpy
 from matplotlib.ticker import MaxNLocator
@@ -17,8 +17,8 @@ CONTOURS = 8
 
 def subfault_edges(grid) -> tuple:
     """Returns the edges of the subfaults of a segment in m: along strike, and down dip."""
-    return tuple(numpy.arange(grid.sizes[dimension] + 1) * float(grid[size])
-                 for dimension, size in (("along_strike", "cell_length"), ("down_dip", "cell_width")))
+    return tuple(numpy.arange(grid.sizes[dimension] + 1) * float(grid[size]) for dimension,
+                 size in (("along_strike", "cell_length"), ("down_dip", "cell_width")))
 
 
 def draw_segment(axes, grid, name, begin, scale) -> tuple:
@@ -37,16 +37,13 @@ def draw_segment(axes, grid, name, begin, scale) -> tuple:
 def fault(grid) -> Picture:
     """Draws slip, rupture time, rise time and static stress drop of a finite-fault model.
 
-    The segments are side by side, in the order of the file. Lines on the slip have equal rupture times.
+    The segments are side by side, in the order of the file. Lines on the slip have equal rupture
+    times.
 
     Parameters
     ----------
     grid : xarray.Dataset
         Content of a file of `slipfront event FILE.fsp --fault-grid -o OUT.nc`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
 
     Examples
     --------
@@ -54,7 +51,8 @@ def fault(grid) -> Picture:
     >>> dimensions = ("segment", "down_dip", "along_strike")
     >>> values = numpy.ones((1, 4, 6)) * numpy.arange(6)
     >>> sizes = {name: ("segment", [1000.0]) for name in ("cell_length", "cell_width")}
-    >>> grid = xarray.Dataset({**sizes, **{name: (dimensions, values, {"units": "m"}) for name in ("slip", "rupture_time")}})
+    >>> fields = {name: (dimensions, values, {"units": "m"}) for name in ("slip", "rupture_time")}
+    >>> grid = xarray.Dataset({**sizes, **fields})
     >>> slipfront.plots.fault(grid).axes[0].get_xlabel()
     'position along strike, km'
     """
@@ -69,7 +67,8 @@ def fault(grid) -> Picture:
             segment = grid.isel(segment=i)
             image, end = draw_segment(axes, segment, name, begin, scale)
             begin = end + float(segment["cell_length"]) / 2  # a gap between segments
-        figure.colorbar(image, ax=axes, location="top", label=label(grid[name], FIELDS[name]), aspect=30, ticks=MaxNLocator(5))
+        figure.colorbar(image, ax=axes, location="top", label=label(grid[name], FIELDS[name]),
+                        aspect=30, ticks=MaxNLocator(5))
         axes.set_aspect("equal")
         axes.set_facecolor("0.9")
         axes.grid(False)

@@ -9,10 +9,11 @@ from .._run import read as read_netcdf
 
 
 def read(path, si=None) -> xarray.Dataset:
-    """The Dataset of a NetCDF file, or of a CSV file of `slipfront relations` or `event` (one row a state or event). `si` chooses the units
-    of a run, by default those of its file.
+    """The Dataset of a NetCDF file, or of a CSV file of `slipfront relations` or `event` (one row a
+    state or event). `si` chooses the units of a run, by default those of its file.
 
-    Raises OSError, in one line with the file's name, where it cannot be read; ValueError where it is neither.
+    Raises OSError, in one line with the file's name, where it cannot be read; ValueError where it
+    is neither.
     """
     path = pathlib.Path(path)
     try:
@@ -24,11 +25,11 @@ def read(path, si=None) -> xarray.Dataset:
         return netcdf(path, si)
     if path.suffix.lower() == ".csv":
         return rows(path)
-    raise ValueError(f"{path}: neither NetCDF nor CSV by its start and name; allowed: files of pulse, chain, compare, event (-o), relations, event (--csv)")
+    raise ValueError(f"{path}: neither NetCDF nor CSV by its start and name; allowed: files of "
+                     "pulse, chain, compare, event (-o), relations, event (--csv)")
 
 
 def netcdf(path, si=None) -> xarray.Dataset:
-    """A NetCDF file, by slipfront or not."""
     try:
         data = read_netcdf(path, any_file=True, si=si)
         return data.slipfront.si() if si else data
@@ -37,7 +38,6 @@ def netcdf(path, si=None) -> xarray.Dataset:
 
 
 def rows(path) -> xarray.Dataset:
-    """A CSV file with a header, as a Dataset over `row`."""
     pandas = import_optional("pandas")
     try:
         table = pandas.read_csv(path)

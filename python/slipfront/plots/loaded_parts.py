@@ -1,4 +1,4 @@
-"""Common parts of the pictures of a run that springs load: its force, its slip velocity between outputs, and its slip events."""
+"""Parts of the pictures of a run with springs: force, slip velocity, slip events."""
 
 import math
 
@@ -10,34 +10,36 @@ from .style import REST, label
 #: Number of decades of slip velocity that a colour scale shows at most.
 DECADES = 9
 
-#: Forces of a loaded run, of which a file has one: on a chain that is pulled everywhere, and at a pulled end.
+#: Forces of a loaded run, of which a file has one: on a chain that is pulled everywhere, and at a
+#: pulled end.
 FORCES = ("loading_force", "loading_stress")
 
 
 def force_of(run):
     """Returns the force of the springs over time, or None if no springs load the run."""
-    return next((run[name] for name in FORCES if name in run and run[name].ndim == 1 and bool(run[name].notnull().any())), None)
+    return next((run[name] for name in FORCES
+                 if name in run and run[name].ndim == 1 and bool(run[name].notnull().any())), None)
 
 
 def is_loaded(run) -> bool:
-    """Returns whether springs load the run."""
     return force_of(run) is not None or "event_onset" in run
 
 
 def count_of(run) -> int:
-    """Returns the number of slip events."""
     return run.sizes["event"] if "event_onset" in run else 0
 
 
 def event_of(run, number=None) -> int:
-    """Returns the index of slip event `number`, which counts from 1, or of the event with the largest slip. Raises ValueError if there is none."""
+    """Returns the index of an event by its number, or of the largest. Raises ValueError."""
     events = count_of(run)
     if events == 0:
-        raise ValueError("the run has no slip event; allowed: a run with [loading] in which events occur")
+        raise ValueError("the run has no slip event; allowed: a run with [loading] in which events "
+                         "occur")
     if number is None:
         return int(numpy.argmax(numpy.abs(run["event_slip"].values)))
     if not 1 <= number <= events:
-        raise ValueError(f"event {number}: the run has {events} event{'s' if events > 1 else ''}; allowed: 1 to {events}")
+        raise ValueError(f"event {number}: the run has {events} event{'s' if events > 1 else ''}; "
+                         f"allowed: 1 to {events}")
     return number - 1
 
 
@@ -52,8 +54,9 @@ def spans(run) -> tuple:
 def force_with_events(run) -> tuple:
     """Returns times and forces for a line, and the force at the onset of each event.
 
-    The force at the output times is that of the file. Short events, with at most one output during them, are added: there the force falls by
-    the stress drop of the event. Between events the force changes linearly in time, before an output during an event as it did before.
+    The force at the output times is that of the file. Short events, with at most one output during
+    them, are added: there the force falls by the stress drop of the event. Between events the force
+    changes linearly in time, before an output during an event as it did before.
     """
     force, times = force_of(run), run["time"].values
     values, (onsets, ends) = force.values, spans(run)
@@ -77,7 +80,7 @@ def force_with_events(run) -> tuple:
 
 
 def _sign_of(force, run) -> int:
-    """Returns the sign that the force has while it holds the slip. A stress that pushes a right end forward is negative."""
+    """Returns the sign of the force that holds slip: -1 for a pushed right end."""
     if force.name == "loading_force":
         return direction(run)
     return -1 if float(force.mean()) < 0 else 1
@@ -89,7 +92,7 @@ def direction(run) -> int:
 
 
 def slip_rates(run) -> numpy.ndarray:
-    """Returns the magnitude of the mean slip velocity between one output and the next, over interval and x."""
+    """Returns the size of the mean slip velocity between outputs, over interval and x."""
     slip = run["slip"].transpose("time", "x")
     change = numpy.diff(slip.values, axis=0)
     noise = 8 * numpy.finfo(float).eps * numpy.nanmax(numpy.abs(slip.values), initial=0)
@@ -98,12 +101,11 @@ def slip_rates(run) -> numpy.ndarray:
 
 
 def rate_label(run) -> str:
-    """Returns the label of the colour bar of slip_rates, in the unit of W."""
     return label(run["W"], "mean slip velocity |W|") if "W" in run else "mean slip velocity"
 
 
 def rate_scale(rates) -> dict:
-    """Returns the options of a map of slip velocities: whole decades on a logarithmic scale. At rest the scale is from 0 to 1."""
+    """Returns the options of a map of slip velocities: decades, or 0 to 1 at rest."""
     moving = rates[numpy.isfinite(rates) & (rates > REST)]
     if moving.size == 0:
         return {"vmin": 0, "vmax": 1}
@@ -113,25 +115,23 @@ def rate_scale(rates) -> dict:
 
 
 def draw_rates(figure, axes, across, up, rates, text, **bar_options) -> None:
-    """Draws a map of slip velocities (interval, x) between the edges `across` in time and `up` in x, with its colour bar. Cells that are not finite
-    are grey."""
+    """Draws a map of slip velocities (interval, x) between edges; not finite ones are grey."""
     scale = rate_scale(rates)
     image = axes.pcolormesh(across, up, numpy.ma.masked_invalid(rates).T, rasterized=True, **scale)
     axes.set_facecolor("0.75")
     axes.grid(False)
     slower = "norm" in scale and bool((rates < scale["norm"].vmin).any())
-    bar = figure.colorbar(image, ax=axes, label=text, extend="min" if slower else "neither", pad=0.02, **bar_options)
+    bar = figure.colorbar(image, ax=axes, label=text, extend="min" if slower else "neither",
+                          pad=0.02, **bar_options)
     if "norm" not in scale:
         bar.set_ticks([0])
         say(axes, "at rest")
 
 
 def say(axes, text) -> None:
-    """Writes a remark in the middle of a panel."""
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color="0.3")
 
 
 def edges_of(run) -> numpy.ndarray:
-    """Returns the edges of the cells in x."""
     bounds = run["x_bounds"].values
     return numpy.append(bounds[:, 0], bounds[-1, 1])

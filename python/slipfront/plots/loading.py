@@ -2,7 +2,8 @@
 
 import numpy
 
-from .loaded_parts import count_of, direction, draw_rates, edges_of, event_of, force_of, force_with_events, rate_label, say, slip_rates, spans
+from .loaded_parts import (count_of, direction, draw_rates, edges_of, event_of, force_of,
+                           force_with_events, rate_label, say, slip_rates, spans)
 from .pulse_parts import finite, title_of
 from .style import REST, Picture, label, scaled, styled
 
@@ -11,33 +12,34 @@ MANY = 80
 
 
 def before_failure(run, event) -> slice:
-    """Returns the outputs from the end of the event before until the onset of `event`, as a slice."""
+    """Returns the outputs from the end of the event before to the onset of `event`."""
     onsets, ends = spans(run)
     start = ends[event - 1] if event else -numpy.inf
     rows = numpy.flatnonzero((run["time"].values >= start) & (run["time"].values < onsets[event]))
     if rows.size < 3:
-        raise ValueError(f"event {event + 1}: the file has {rows.size} output times between the event before and its onset; allowed: 3 or more, as with a smaller output.every")
+        raise ValueError(f"event {event + 1}: the file has {rows.size} output times between the "
+                         "event before and its onset; allowed: 3 or more, as with a smaller "
+                         "output.every")
     return slice(rows[0], rows[-1] + 1)
 
 
 @styled
 def loading(run, until_failure: bool = False, event: int | None = None) -> Picture:
-    """Draws the force of the springs over time with the slip events, and below it the slip velocity over time and position.
+    """Draws the force of the springs over time with the slip events, and below it the slip velocity
+    over time and position.
 
-    The slip velocity is the mean between one output and the next, on a logarithmic colour scale. So no event is lost between two outputs.
+    The slip velocity is the mean between one output and the next, on a logarithmic colour scale. So
+    no event is lost between two outputs.
 
     Parameters
     ----------
     run : xarray.Dataset
         Result of `slipfront.chain` with a table [loading], with two or more output times.
     until_failure : bool, optional
-        Whether the axis is the logarithm of the time until the onset of an event. It begins at the end of the event before.
+        Whether the axis is the logarithm of the time until the onset of an event. It begins at the
+        end of the event before.
     event : int, optional
         Number of that event, from 1. By default it is the event with the largest slip.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
 
     Raises
     ------
@@ -45,8 +47,10 @@ def loading(run, until_failure: bool = False, event: int | None = None) -> Pictu
 
     Examples
     --------
-    >>> figure = slipfront.plots.loading(slipfront.chain(slipfront.cases / "stick-slip.toml", set={
-    ...     "domain.left": -12, "domain.right": 12, "time.end": 1e4, "output.every": 1e3, "pulse.cells": 4}))
+    >>> chain = slipfront.chain(slipfront.cases / "stick-slip.toml", set={
+    ...     "domain.left": -12, "domain.right": 12, "time.end": 1e4, "output.every": 1e3,
+    ...     "pulse.cells": 4})
+    >>> figure = slipfront.plots.loading(chain)
     >>> figure.axes[0].get_ylabel()
     'force F, 10⁻⁶ μA²/(π(1-ν))'
     """
@@ -60,7 +64,8 @@ def loading(run, until_failure: bool = False, event: int | None = None) -> Pictu
     shift = 0.0 if chosen is None else float(run["event_onset"][chosen])
     sign = 1 if chosen is None else -1
     draw_force(top, run, rows, chosen)
-    draw_rates(figure, bottom, sign * (times.values[rows] - shift), edges_of(run), slip_rates(run.isel(time=rows)), rate_label(run))
+    draw_rates(figure, bottom, sign * (times.values[rows] - shift), edges_of(run),
+               slip_rates(run.isel(time=rows)), rate_label(run))
     bottom.set_ylabel(label(run["x"]))
     if chosen is None:
         scaled(bottom.xaxis, times, label(times), times.values)
@@ -71,13 +76,14 @@ def loading(run, until_failure: bool = False, event: int | None = None) -> Pictu
 
 
 def failure_axis(axes, run, rows, event) -> None:
-    """Makes the axis of time that of the time until an event, logarithmic, with the event on the right."""
+    """Makes the axis the logarithm of the time until an event, which is on the right."""
     remaining = float(run["event_onset"][event]) - run["time"].values[rows]
-    axes.set(xscale="log", xlim=(remaining.max(), remaining.min()), xlabel=label(run["time"], f"time until event {event + 1}"))
+    axes.set(xscale="log", xlim=(remaining.max(), remaining.min()),
+             xlabel=label(run["time"], f"time until event {event + 1}"))
 
 
 def draw_force(axes, run, rows, event) -> None:
-    """Draws the force over time, or over the time until an event, and marks the onsets of events."""
+    """Draws force over time, or over the time until an event, with the onsets of events."""
     force = force_of(run)
     if force is None:
         axes.set_ylabel("force")
@@ -105,14 +111,18 @@ def draw_force(axes, run, rows, event) -> None:
 def mark_events(axes, run, at_onsets) -> None:
     """Marks the onsets of the events just outside the line of the force."""
     if not count_of(run):
-        axes.text(0.99, 0.05, "no events", transform=axes.transAxes, ha="right", color="0.3", fontsize="small")
+        axes.text(0.99, 0.05, "no events", transform=axes.transAxes, ha="right", color="0.3",
+                  fontsize="small")
         return
     complete = run["event_complete"].values > 0
     few = complete.size <= MANY
     marker = "v" if direction(run) > 0 else "^"
-    for chosen, fill, text in ((complete, "C1", "onset of an event"), (~complete, "white", "onset of an event that the end of the run cuts")):
+    for chosen, fill, text in ((complete, "C1", "onset of an event"),
+                               (~complete, "white",
+                                "onset of an event that the end of the run cuts")):
         if chosen.any():
-            axes.plot(run["event_onset"].values[chosen], at_onsets[chosen], linestyle="none", marker=marker if few else ".", markersize=5 if few else 3,
-                      color="C1", markerfacecolor=fill, label=text, zorder=3)
+            axes.plot(run["event_onset"].values[chosen], at_onsets[chosen], linestyle="none",
+                      marker=marker if few else ".", markersize=5 if few else 3, color="C1",
+                      markerfacecolor=fill, label=text, zorder=3)
     axes.margins(y=0.12)
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=3, borderaxespad=0.2)

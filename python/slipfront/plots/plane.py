@@ -15,23 +15,26 @@ CONTOURS = 8
 
 
 def _map(figure, axes, data, values, **options) -> None:
-    image = axes.pcolormesh(data["x"], data["y"], numpy.ma.masked_invalid(values), shading="nearest", rasterized=True, **options)
-    figure.colorbar(image, ax=axes, location="top", label=label(values), aspect=30, ticks=MaxNLocator(5))
+    image = axes.pcolormesh(data["x"], data["y"], numpy.ma.masked_invalid(values),
+                            shading="nearest", rasterized=True, **options)
+    figure.colorbar(image, ax=axes, location="top", label=label(values), aspect=30,
+                    ticks=MaxNLocator(5))
     axes.set(xlabel=label(data["x"]), aspect="equal")
     axes.grid(False)
 
 
 def draw_spectrum(axes, rupture) -> None:
-    """Draws the amplitude spectrum of the moment rate, without the frequency 0."""
     frequency, amplitude = (rupture[name] for name in SPECTRUM)
     shown = (frequency.values > 0) & (amplitude.values > 0)
     axes.plot(frequency.values[shown], amplitude.values[shown])
-    axes.set(xscale="log", yscale="log", xlabel=label(frequency, "frequency"), ylabel=label(amplitude, "moment spectrum"))
+    axes.set(xscale="log", yscale="log", xlabel=label(frequency, "frequency"),
+             ylabel=label(amplitude, "moment spectrum"))
 
 
 @styled
 def plane(rupture, time: int = -1) -> Picture:
-    """Draws slip velocity and slip at one time, the time at which each point ruptured, the moment rate and, if it is known, its spectrum.
+    """Draws slip velocity and slip at one time, the time at which each point ruptured, the moment
+    rate and, if it is known, its spectrum.
 
     Parameters
     ----------
@@ -39,10 +42,6 @@ def plane(rupture, time: int = -1) -> Picture:
         Content of a file of `slipfront plane`, with the dimensions time, y, x and series_time.
     time : int, optional
         Number of the output time that the maps show. By default they show the last one.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
 
     Examples
     --------
@@ -65,13 +64,15 @@ def plane(rupture, time: int = -1) -> Picture:
     _map(maps, panels[2], rupture, rupture["rupture_time"], cmap="viridis_r")
     arrived = rupture["rupture_time"].values
     if numpy.isfinite(arrived).any() and numpy.nanmax(arrived) > numpy.nanmin(arrived):
-        panels[2].contour(rupture["x"], rupture["y"], arrived, levels=CONTOURS, colors="white", linewidths=0.6)
+        panels[2].contour(rupture["x"], rupture["y"], arrived, levels=CONTOURS, colors="white",
+                          linewidths=0.6)
     panels[0].set_ylabel(label(rupture["y"]))
     has_spectrum = set(SPECTRUM) <= set(rupture.variables)
     rate, *spectrum = curves.subplots(1, 1 + has_spectrum, squeeze=False)[0]
     rate.plot(rupture["series_time"], rupture["moment_rate"])
     rate.axvline(float(rupture["time"][time]), color="0.5", linewidth=0.8, linestyle=":")
-    rate.set(xlabel=label(rupture["series_time"]), ylabel=label(rupture["moment_rate"], "moment rate"))
+    rate.set(xlabel=label(rupture["series_time"]),
+             ylabel=label(rupture["moment_rate"], "moment rate"))
     for axes in spectrum:
         draw_spectrum(axes, rupture)
     figure.suptitle(title_of(rupture))

@@ -1,4 +1,4 @@
-"""Draws ruptures on a fault plane as moving pictures: slip velocity, dislocation lines, and the moment rate."""
+"""Draws ruptures on a plane as moving pictures: slip velocity, lines, moment rate."""
 
 import textwrap
 
@@ -12,8 +12,9 @@ from .style import is_si, label, prefix_axes, prefixed, styled, unit
 
 
 def fastest(ruptures) -> float:
-    """Returns the slip velocity at the end of the colours: one cell in a thousand is faster, where lines meet."""
-    return max(float(numpy.nanquantile(numpy.abs(rupture["slip_velocity"]), 0.999)) for rupture in ruptures) or 1.0
+    """Returns the end of the colours: one cell in a thousand is faster, where lines meet."""
+    return max(float(numpy.nanquantile(numpy.abs(rupture["slip_velocity"]), 0.999))
+               for rupture in ruptures) or 1.0
 
 
 class Map:
@@ -21,8 +22,11 @@ class Map:
 
     def __init__(self, axes, curve, rupture, colour, most):
         self.rupture = rupture
-        self.image = axes.pcolormesh(rupture["x"], rupture["y"], abs(rupture["slip_velocity"][0]), shading="nearest", rasterized=True, cmap="magma", vmin=0, vmax=most)
-        self.lines = axes.plot([], [], color="white", linewidth=0.5)[0] if "line_x" in rupture else None
+        self.image = axes.pcolormesh(rupture["x"], rupture["y"], abs(rupture["slip_velocity"][0]),
+                                     shading="nearest", rasterized=True, cmap="magma", vmin=0,
+                                     vmax=most)
+        self.lines = axes.plot([], [], color="white",
+                               linewidth=0.5)[0] if "line_x" in rupture else None
         axes.set(xlabel=label(rupture["x"]), aspect="equal")
         axes.set_title(textwrap.fill(title_of(rupture), 40), fontsize="small")
         axes.grid(False)
@@ -31,7 +35,6 @@ class Map:
         self.mark = curve.plot([], [], marker="o", color=colour, linestyle="none")[0]
 
     def show(self, row) -> None:
-        """Shows one output time."""
         time = float(self.rupture["time"][row])
         self.image.set_array(abs(self.rupture["slip_velocity"][row].values))
         self.mark.set_data([time], [numpy.interp(time, self.time, self.rate)])
@@ -41,7 +44,8 @@ class Map:
 
 
 class PlaneScene:
-    """A figure that shows one rupture on a plane, or several side by side, at one output time after another.
+    """A figure that shows one rupture on a plane, or several side by side, at one output time after
+    another.
 
     ruptures: a list of Datasets with the same output times.
     """
@@ -51,29 +55,36 @@ class PlaneScene:
     @styled
     def __init__(self, ruptures):
         self.times = ruptures[0]["time"].values
-        if any(not xarray.DataArray(self.times).equals(xarray.DataArray(rupture["time"].values)) for rupture in ruptures):
-            raise ValueError("ruptures side by side have different output times; allowed: the same [output] and [time] in each")
+        if any(not xarray.DataArray(self.times).equals(xarray.DataArray(rupture["time"].values))
+               for rupture in ruptures):
+            raise ValueError("ruptures side by side have different output times; allowed: the same "
+                             "[output] and [time] in each")
         self.figure = Figure(figsize=(1 + 3.7 * len(ruptures), 5.8), dpi=100)
         FigureCanvasAgg(self.figure)
         above, below = self.figure.subfigures(2, 1, height_ratios=(3, 1))
-        panels, curve = above.subplots(1, len(ruptures), sharey=True, squeeze=False)[0], below.subplots()
+        panels, curve = above.subplots(1, len(ruptures), sharey=True,
+                                       squeeze=False)[0], below.subplots()
         most = fastest(ruptures)
-        self.maps = [Map(axes, curve, rupture, f"C{i}", most) for i, (axes, rupture) in enumerate(zip(panels, ruptures))]
-        speed = label(ruptures[0]["slip_velocity"].rename("W")).replace("slip velocity W", "size of the slip velocity")
+        self.maps = [Map(axes, curve, rupture, f"C{i}", most)
+                     for i, (axes, rupture) in enumerate(zip(panels, ruptures))]
+        speed = label(ruptures[0]["slip_velocity"].rename("W")).replace("slip velocity W",
+                                                                        "size of the slip velocity")
         above.colorbar(self.maps[0].image, ax=list(panels), label=speed)
         panels[0].set_ylabel(label(ruptures[0]["y"]))
-        curve.set(xlabel=label(ruptures[0]["series_time"]), ylabel=label(ruptures[0]["moment_rate"]).replace(", ", ",\n"))
+        curve.set(xlabel=label(ruptures[0]["series_time"]),
+                  ylabel=label(ruptures[0]["moment_rate"]).replace(", ", ",\n"))
         if is_si(ruptures[0]):
             prefix_axes(self.figure)
-        self.unit = prefixed(unit(ruptures[0]["time"]), float(self.times[-1])) if is_si(ruptures[0]) else (1, "b / (c A)")
+        self.unit = prefixed(unit(ruptures[0]["time"]),
+                             float(self.times[-1])) if is_si(ruptures[0]) else (1, "b / (c A)")
         self.clock = self.figure.suptitle(" ")
         self.show(0)
         self.figure.canvas.draw()
-        self.figure.set_layout_engine("none")  # otherwise the axes would move when the width of the clock changes
+        # Otherwise the axes would move when the width of the clock changes
+        self.figure.set_layout_engine("none")
 
     @styled
     def show(self, row) -> numpy.ndarray:
-        """Draws one output time. Returns the picture as an array of height x width x 3 (red, green, blue; 0 to 255)."""
         for part in self.maps:
             part.show(row)
         self.clock.set_text(f"t = {float(self.times[row]) / self.unit[0]:.3g} {self.unit[1]}")

@@ -1,4 +1,4 @@
-"""Common parts of the pictures of a pulse: its title, the range of x to show, the lines of its fronts."""
+"""Parts of the pictures of a pulse: title, range of x, lines of fronts."""
 
 import numpy
 import matplotlib
@@ -18,13 +18,13 @@ FRONTS = {
 #: Fields that are zero at rest.
 MOTIONS = ("W", "U", "slip")
 
-#: A value that is more than this many times larger than any other is taken for a bad cell and ignored in the limits of axes.
+#: A value that is more than this many times larger than any other is taken for a bad cell and
+#: ignored in the limits of axes.
 OUTLIER = 4
 
 
 def title_of(dataset, most: int = 76) -> str:
-    """Returns the title of the scenario of a Dataset as one line of at most `most` characters, without those that a picture cannot show. Of the
-    settings at its end, "(with ...)", it has those that fit."""
+    """Returns the title of a Dataset in at most `most` characters, with the settings that fit."""
     text = plain(" ".join(str(dataset.attrs.get("title", "")).split()))
     if len(text) <= most:
         return text
@@ -40,12 +40,14 @@ def title_of(dataset, most: int = 76) -> str:
 
 def finite(dataset):
     """Returns the Dataset with NaN for each infinite value, because no axis can show it."""
-    return dataset.map(lambda values: values.where(abs(values) < numpy.inf) if values.dtype.kind == "f" else values, keep_attrs=True)
+    return dataset.map(lambda values: values.where(abs(values) < numpy.inf)
+                       if values.dtype.kind == "f" else values, keep_attrs=True)
 
 
 def fronts_of(dataset) -> list:
     """Returns (variable, line style, name, symbol) of each front that exists at some time."""
-    return [(dataset[front], *look) for front, look in FRONTS.items() if front in dataset and bool(dataset[front].notnull().any())]
+    return [(dataset[front], *look) for front, look in FRONTS.items()
+            if front in dataset and bool(dataset[front].notnull().any())]
 
 
 def is_constant(lowest, highest) -> bool:
@@ -54,8 +56,7 @@ def is_constant(lowest, highest) -> bool:
 
 
 def extent(values) -> tuple[float, float]:
-    """Returns the smallest and the largest finite value, or (0, 0) if there is none. A single value that is more than OUTLIER times larger
-    than all others is ignored."""
+    """Returns the smallest and largest finite value, without one outlier, or (0, 0)."""
     values = values[numpy.isfinite(values)]
     magnitudes = numpy.sort(numpy.abs(values))
     if magnitudes.size > 1 and magnitudes[-1] > OUTLIER * magnitudes[-2] > 0:
@@ -64,7 +65,7 @@ def extent(values) -> tuple[float, float]:
 
 
 def say_rest(axes, field) -> None:
-    """Writes a remark in a panel of a field that is zero within rounding: it is at rest, or without stress."""
+    """Writes in the panel of a field that is zero within rounding that it is at rest."""
     lowest, highest = extent(field.values)
     if max(-lowest, highest) < rest_of(field):
         text = "at rest" if field.name in MOTIONS else "zero"
@@ -72,18 +73,17 @@ def say_rest(axes, field) -> None:
 
 
 def backward(dataset, name) -> str:
-    """Returns the remark of a picture on backward slip: a slip or slip velocity below -2 % of its maximum, which is more than the ripples of
-    a chain. Otherwise returns an empty text."""
+    """Returns a remark on slip below -2 % of its maximum, more than ripples of a chain, or ""."""
     lowest, highest = extent(dataset[name].values)
     is_backward = name in ("slip", "W") and lowest < min(-0.02 * highest, -rest_of(dataset[name]))
     return "below 0: slips backward, where stress rises with x" if is_backward else ""
 
 
 def window(dataset) -> tuple:
-    """Returns the range of x to show: the range that the fronts cross, and a fifth of it more on either side, within the domain.
-    Of a run that springs load it is the whole domain."""
+    """Returns the range of x that fronts cross and a fifth more, or the domain with springs."""
     ends = dataset["x_bounds"].values if "x_bounds" in dataset else dataset["x"].values
-    reached = [float(extreme) for front, *_ in fronts_of(dataset) for extreme in (front.min(), front.max())]
+    reached = [float(extreme) for front, *_ in fronts_of(dataset)
+               for extreme in (front.min(), front.max())]
     left, right = float(ends.min()), float(ends.max())
     if is_loaded(dataset) or not reached or max(reached) <= min(reached):
         return left, right
@@ -92,7 +92,7 @@ def window(dataset) -> tuple:
 
 
 def shades(count: int) -> list:
-    """Returns the colours of a sequence (times, scales), from light to dark. They also differ in grey."""
+    """Returns the colours of a sequence, from light to dark, also in grey."""
     return [matplotlib.colormaps["viridis_r"](share) for share in numpy.linspace(0.1, 1, count)]
 
 
@@ -101,5 +101,7 @@ def mark_fronts(axes, pulse) -> None:
     for front, _, _, symbol in fronts_of(pulse):
         if symbol and numpy.isfinite(front[-1]):
             side = 1 if symbol == "V+" else -1
-            axes.annotate(symbol, (float(front[-1]), 0), xytext=(15 * side, 12), textcoords="offset points", ha="center", color="C0", fontweight="bold",
-                          arrowprops={"arrowstyle": "->", "color": "C0"}, annotation_clip=True, path_effects=[withStroke(linewidth=2.5, foreground="white")])
+            axes.annotate(symbol, (float(front[-1]), 0), xytext=(15 * side, 12),
+                          textcoords="offset points", ha="center", color="C0", fontweight="bold",
+                          arrowprops={"arrowstyle": "->", "color": "C0"}, annotation_clip=True,
+                          path_effects=[withStroke(linewidth=2.5, foreground="white")])

@@ -7,12 +7,14 @@ from .style import Picture, label, plain_numbers, styled
 
 @styled
 def relations(states) -> Picture:
-    """Rupture and leading velocity (above) and slip velocity at x = 0 (below) against the initial stress, on linear and logarithmic axes.
+    """Rupture and leading velocity (above) and slip velocity at x = 0 (below) against the initial
+    stress, on linear and logarithmic axes.
 
     Parameters
     ----------
     states : xarray.Dataset
-        stress, rupture_velocity, leading_velocity and slip_velocity, positive, of one shape and in any order: what `slipfront.relations` gives.
+        stress, rupture_velocity, leading_velocity and slip_velocity, positive, of one shape and in
+        any order: what `slipfront.relations` gives.
 
     Examples
     --------
@@ -29,8 +31,10 @@ def relations(states) -> Picture:
     for column, scale in enumerate(("linear", "log")):
         for row, names in enumerate((("rupture_velocity", "leading_velocity"), ("slip_velocity",))):
             for name in names:
-                short = {"rupture_velocity": "|V−|, trailing edge (fast)", "leading_velocity": "V+, leading edge (slow)"}.get(name)
-                axes[row, column].plot(stress, states[name].values.ravel()[order], label=short, marker=single)
+                short = {"rupture_velocity": "|V−|, trailing edge (fast)",
+                         "leading_velocity": "V+, leading edge (slow)"}.get(name)
+                axes[row, column].plot(stress, states[name].values.ravel()[order], label=short,
+                                       marker=single)
             axes[row, column].set(yscale=scale, xscale=scale if spans_decades(stress) else "linear")
     axes[0, 0].legend(loc="lower right")
     axes[0, 0].set(title="linear", ylabel=label(states["rupture_velocity"], "velocity of an edge"))
@@ -44,5 +48,5 @@ def relations(states) -> Picture:
 
 
 def spans_decades(values) -> bool:
-    """Whether positive values cover more than one decade: what makes a logarithmic axis worth its labels."""
+    """Returns whether positive values cover more than a decade, worth a logarithmic axis."""
     return values.max() > 10 * values.min()

@@ -16,7 +16,8 @@ from .._slipfront import event_quantities, printable, relations_quantities
 
 SHEET = pathlib.Path(__file__).resolve().parent.parent / "slipfront.mplstyle"
 
-#: Short names of quantities for axes. Other quantities have their long_name. docs/NOTATION.md lists the symbols.
+#: Short names of quantities for axes. Other quantities have their long_name. docs/NOTATION.md lists
+#: the symbols.
 NAMES = {
     "x": "position x",
     "y": "position y",
@@ -54,7 +55,8 @@ for _name, _unit, _label in event_quantities():
         UNITS[_name] = _unit
 
 
-#: A field whose values are all smaller than this, in any units, is at rest. Interfaces under rate-and-state friction creep at 1e-17 and less.
+#: A field whose values are all smaller than this, in any units, is at rest. Interfaces under
+#: rate-and-state friction creep at 1e-17 and less.
 REST = 1e-12
 
 #: The same for a stress in Pa.
@@ -64,15 +66,16 @@ REST_IN_PA = 1e-5
 POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-#: Decimal prefixes, and the units that take them. Times from two hours on are in hours, days or years.
-PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "μ"), (1e-9, "n"), (1e-12, "p"))
+#: Decimal prefixes, and the units that take them. Times from two hours on are in hours, days or
+#: years.
+PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "μ"), (1e-9, "n"),
+            (1e-12, "p"))
 TIMES = ((31557600.0, "years"), (86400.0, "days"), (3600.0, "h"))
 PREFIXED = ("m", "s", "Pa", "m s⁻¹", "J m⁻¹", "J m⁻²")
 
 
 def prefixed(name, largest) -> tuple[float, str]:
-    """Returns the unit in which an axis shows values of an SI unit up to `largest`: its factor and its name, as in (1e-3, "mm"). It is the
-    largest unit that is not above that value; hours, days and years must fit twice."""
+    """Returns factor and name of the unit for SI values up to `largest`, as (1e-3, "mm")."""
     if name not in PREFIXED or not 0 < largest < math.inf:
         return 1.0, name
     if name == "s":
@@ -80,7 +83,8 @@ def prefixed(name, largest) -> tuple[float, str]:
             if largest >= 2 * factor:
                 return factor, longer
     prefixes = [pair for pair in PREFIXES if name != "s" or pair[0] <= 1]
-    factor, prefix = next((pair for pair in prefixes if largest >= pair[0] * (1 - 1e-9)), prefixes[-1])
+    factor, prefix = next((pair for pair in prefixes if largest >= pair[0] * (1 - 1e-9)),
+                          prefixes[-1])
     return factor, prefix + name
 
 
@@ -95,8 +99,13 @@ class TicksIn(AutoLocator):
         return super().tick_values(vmin / self.factor, vmax / self.factor) * self.factor
 
 
+def in_units_of(factor) -> Formatter:
+    """Returns the formatter of an axis in a unit that is `factor` times that of the axis."""
+    return FuncFormatter(lambda value, _: Formatter.fix_minus(f"{value / factor:.4g}"))
+
+
 def prefix_axes(figure) -> None:
-    """Shows axes whose label ends with an SI unit in a unit of suitable size, as in "position x, mm". Axes with powers of ten remain."""
+    """Shows axes with an SI unit in one of suitable size, as in "position x, mm"."""
     for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
         text = axis.get_label_text()
         name = re.split(r",\s", text)[-1]
@@ -108,13 +117,12 @@ def prefix_axes(figure) -> None:
         if is_log:
             plain_numbers(axis, factor)
             continue
-        axis.set_major_formatter(FuncFormatter(lambda value, _, factor=factor: Formatter.fix_minus(f"{value / factor:.4g}")))
+        axis.set_major_formatter(in_units_of(factor))
         if math.log10(factor) % 1:
             axis.set_major_locator(TicksIn(factor))
 
 
 def is_si(dataset) -> bool:
-    """Returns whether a Dataset of a run is in SI units."""
     return getattr(dataset, "attrs", {}).get("unit_system") == "SI"
 
 
@@ -128,14 +136,17 @@ class Picture(Figure):
 def drawn(figure: Figure, kind: str, **options) -> bytes:
     """Returns the content of a file of a picture. `kind` is its format."""
     picture = io.BytesIO()
-    # matplotlib 3.6 would change the layout of a figure that has no layout engine while it saves the figure.
-    with matplotlib.rc_context(fname=SHEET), matplotlib.rc_context({"figure.constrained_layout.use": False}):
-        figure.savefig(picture, format=kind, metadata={"Date": None} if kind == "svg" else None, **options)
+    # matplotlib 3.6 would change the layout of a figure that has no layout engine while it saves
+    # the figure.
+    with matplotlib.rc_context(fname=SHEET), matplotlib.rc_context(
+            {"figure.constrained_layout.use": False}):
+        figure.savefig(picture, format=kind, metadata={"Date": None} if kind == "svg" else None,
+                       **options)
     return picture.getvalue()
 
 
 def styled(draw):
-    """Decorator of a function that draws a Figure. It applies the style sheet, and chooses prefixes for a Dataset in SI units."""
+    """Decorator that applies the style sheet, and prefixes for a Dataset in SI units."""
 
     @functools.wraps(draw)
     def with_style(*arguments, **options):
@@ -151,7 +162,8 @@ def styled(draw):
 def save(figure: Figure, path, **options) -> None:
     """Writes a picture to a file. The file is written completely, or not at all.
 
-    The picture is drawn in a fork of this process, because matplotlib and NumPy can crash when memory runs out.
+    The picture is drawn in a fork of this process, because matplotlib and NumPy can crash when
+    memory runs out.
 
     Parameters
     ----------
@@ -164,7 +176,8 @@ def save(figure: Figure, path, **options) -> None:
 
     Raises
     ------
-    FileError if the picture cannot be drawn or written; ValueError if matplotlib does not write files with this ending.
+    FileError if the picture cannot be drawn or written; ValueError if matplotlib does not write
+    files with this ending.
 
     Examples
     --------
@@ -173,15 +186,17 @@ def save(figure: Figure, path, **options) -> None:
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     slipfront.plots.save(figure, f"{folder}/relations.png")
     """
-    kind, formats = pathlib.Path(path).suffix.lower().lstrip("."), figure.canvas.get_supported_filetypes()
+    kind, formats = (pathlib.Path(path).suffix.lower().lstrip("."),
+                     figure.canvas.get_supported_filetypes())
     if kind not in formats:
-        raise ValueError(f"{path}: a picture cannot be '.{kind}'; allowed: {', '.join(sorted(formats))}")
+        raise ValueError(f"{path}: a picture cannot be '.{kind}'; allowed: "
+                         f"{', '.join(sorted(formats))}")
 
     write_bytes(path, isolated(path, lambda: drawn(figure, kind, **options)))
 
 
 def plain(text) -> str:
-    """Returns a text of a file or a user as a picture can show it: without control characters, and with $ as an ordinary character."""
+    """Returns a text as a picture can show it, without control characters or mathematics."""
     return printable(str(text).encode("utf-8", "replace")).replace("$", r"\$")
 
 
@@ -189,9 +204,11 @@ def unit(variable) -> str:
     """Returns the unit of a DataArray as an axis shows it. It is empty for a pure number."""
     si, unit_of_model = variable.attrs.get("units", ""), variable.attrs.get("dimensional_unit")
     if not unit_of_model and si not in ("", "1"):  # m s-1 without its space would be a rate
-        return plain(si).translate({ord("-"): "⁻", **{ord(digit): power for digit, power in zip("123456789", "¹²³⁴⁵⁶⁷⁸⁹")}})
+        return plain(si).translate({ord("-"): "⁻", **{ord(digit): power for digit,
+                                                      power in zip("123456789", "¹²³⁴⁵⁶⁷⁸⁹")}})
     text = plain(unit_of_model or UNITS.get(variable.name, ""))
-    for written, printed in ((" ", ""), ("mu", "μ"), ("nu", "ν"), ("pi", "π"), ("^2", "²"), ("^3", "³")):
+    for written, printed in ((" ", ""), ("mu", "μ"), ("nu", "ν"), ("pi", "π"), ("^2", "²"),
+                             ("^3", "³")):
         text = text.replace(written, printed)
     return "" if text == "1" else text
 
@@ -202,19 +219,20 @@ def rest_of(variable) -> float:
 
 
 def quantity(variable, value, digits: int = 4) -> str:
-    """Returns a value of a DataArray with its unit, as text."""
-    factor, name = prefixed(unit(variable), abs(value)) if "unit_of_model" in variable.attrs else (1.0, unit(variable))
+    factor, name = (prefixed(unit(variable), abs(value)) if "unit_of_model" in variable.attrs
+                    else (1.0, unit(variable)))
     return f"{value / factor:.{digits}g} {name}"
 
 
 def label(variable, name: str = "") -> str:
     """Returns the label of a DataArray: `name`, by default that of the quantity, and the unit."""
-    name = name or NAMES.get(variable.name) or plain(variable.attrs.get("long_name") or str(variable.name).replace("_", " "))
+    name = name or NAMES.get(variable.name) or plain(variable.attrs.get("long_name")
+                                                     or str(variable.name).replace("_", " "))
     return f"{name}, {unit(variable)}" if unit(variable) else name
 
 
 class LogNumbers(LogFormatter):
-    """Numbers between the decades of a logarithmic axis, if it shows few decades, in a unit that is `factor` times that of the axis."""
+    """Numbers between decades of a short logarithmic axis, in `factor` times its unit."""
 
     def __init__(self, factor):
         super().__init__(labelOnlyBase=False, minor_thresholds=(1.2, 0.5))
@@ -225,20 +243,22 @@ class LogNumbers(LogFormatter):
 
 
 def plain_numbers(axis, factor: float = 1.0) -> None:
-    """Labels a logarithmic axis with numbers such as 0.1 and 100 instead of powers of ten, in a unit that is `factor` times that of the axis."""
+    """Labels a logarithmic axis with numbers such as 0.1, in `factor` times its unit."""
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / factor:g}"))
     axis.set_minor_formatter(LogNumbers(factor))
 
 
 def scaled(axis, variable, text, values) -> None:
-    """Labels a linear axis with `text`, which ends with the unit of a variable. Large and small values are divided by a power of ten, which
-    the label names before the unit, as in "time t, 10⁶ b/(cA)"."""
+    """Labels a linear axis with `text`, which ends with the unit of a variable. Large and small
+    values are divided by a power of ten, which the label names before the unit, as in "time t, 10⁶
+    b/(cA)"."""
     largest = numpy.nanmax(numpy.abs(values), initial=0)
     power = 3 * math.floor(math.log10(largest) / 3 + 1e-9) if largest > 0 else 0
-    if -2 <= math.log10(largest or 1) < 4 or "unit_of_model" in variable.attrs:  # SI units have prefixes instead
+    # SI units have prefixes instead
+    if -2 <= math.log10(largest or 1) < 4 or "unit_of_model" in variable.attrs:
         power = 0
     if power:
         factor, name = f"10{str(power).translate(POWERS)}", unit(variable)
         text = f"{text.removesuffix(name)}{factor} {name}" if name else f"{text}, {factor}"
-        axis.set_major_formatter(FuncFormatter(lambda value, _: Formatter.fix_minus(f"{value / 10.0**power:.4g}")))
+        axis.set_major_formatter(in_units_of(10.0**power))
     axis.set_label_text(text)

@@ -16,16 +16,17 @@ def axis_label(coordinate) -> str:
 
 
 def variable_of(data, variable: str = "") -> str:
-    """Returns the name of the number to draw: `variable`, or the default. Raises ValueError if the sweep has no such number."""
+    """Returns the number to draw: `variable`, or the default. Raises ValueError."""
     numbers = [str(name) for name, values in data.data_vars.items() if values.dtype.kind in "fiu"]
     variable = variable or next((name for name in (PREFERRED, *numbers) if name in numbers), "")
     if variable not in numbers:
-        raise ValueError(f"variable = '{variable}': not a number of this sweep; allowed: {', '.join(numbers)}")
+        raise ValueError(f"variable = '{variable}': not a number of this sweep; allowed: "
+                         f"{', '.join(numbers)}")
     return variable
 
 
 def has_equal_ratios(values) -> bool:
-    """Whether three or more values of an axis have equal ratios, and the largest is more than three times the smallest. Such an axis is logarithmic."""
+    """Returns whether three or more values have equal ratios and span more than a factor 3."""
     if values.size < 3 or values.min() <= 0 or values.max() <= 3 * values.min():
         return False
     ratios = values[1:] / values[:-1]
@@ -33,13 +34,12 @@ def has_equal_ratios(values) -> bool:
 
 
 def spans_many(values) -> bool:
-    """Whether numbers are positive, except those of runs that failed, and span more than three decades. Their scale is logarithmic."""
+    """Returns whether known numbers are positive and span more than three decades."""
     known = values[numpy.isfinite(values)]
     return bool(known.size and known.min() > 0 and known.max() > 1e3 * known.min())
 
 
 def value_scale(values) -> dict:
-    """Returns the colours of a map of numbers."""
     known = values[numpy.isfinite(values)]
     return {"norm": LogNorm(known.min(), known.max())} if spans_many(values) else colours(values)
 
@@ -54,16 +54,18 @@ def edges(values):
 
 
 def scale_of(coordinate) -> str:
-    """Returns the scale of an axis: "log" if its values have equal ratios, and otherwise "linear"."""
-    return "log" if coordinate.dtype.kind in "fiu" and has_equal_ratios(coordinate.values) else "linear"
+    """Returns "log" if the values of an axis have equal ratios, and otherwise "linear"."""
+    return ("log" if coordinate.dtype.kind in "fiu" and has_equal_ratios(coordinate.values)
+            else "linear")
 
 
 @styled
 def sweep(data, variable: str = "") -> Picture:
     """Draws a number of a sweep: lines for one swept dimension, and a map for two.
 
-    Dimensions of length 1 do not count. An axis whose values have equal ratios is logarithmic, and so is
-    the scale of a number that is positive and spans more than three decades. Points that failed are gaps in a line, and grey in a map; the title counts them. An axis of texts, such as
+    Dimensions of length 1 do not count. An axis whose values have equal ratios is logarithmic, and
+    so is the scale of a number that is positive and spans more than three decades. Points that
+    failed are gaps in a line, and grey in a map; the title counts them. An axis of texts, such as
     friction.closure, gives one line for each of them.
 
     Parameters
@@ -71,11 +73,8 @@ def sweep(data, variable: str = "") -> Picture:
     data : xarray.Dataset
         Result of `slipfront.sweep`. Select values of further dimensions with `.sel`.
     variable : str, optional
-        Name of the number. By default slip_velocity_at_origin, or else the first that the sweep has.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
+        Name of the number. By default slip_velocity_at_origin, or else the first that the sweep
+        has.
 
     Raises
     ------
@@ -90,7 +89,8 @@ def sweep(data, variable: str = "") -> Picture:
     """
     values = data[variable_of(data, variable)].squeeze()
     if not 1 <= values.ndim <= 2:
-        raise ValueError(f"the sweep has {values.ndim} dimensions of two or more values; allowed: 1 or 2; select values of the others with .sel")
+        raise ValueError(f"the sweep has {values.ndim} dimensions of two or more values; allowed: "
+                         "1 or 2; select values of the others with .sel")
     texts = [dim for dim in values.dims if values[dim].dtype.kind not in "fiu"]
     figure = Picture(figsize=(6.0, 4.0))
     axes = figure.subplots()
@@ -103,31 +103,38 @@ def sweep(data, variable: str = "") -> Picture:
     else:
         values = values.sortby(list(values.dims))
         up, across = (values[dim] for dim in values.dims)
-        image = axes.pcolormesh(edges(across.values), edges(up.values), numpy.ma.masked_invalid(values.values), rasterized=True, **value_scale(values.values))
+        image = axes.pcolormesh(edges(across.values), edges(up.values),
+                                numpy.ma.masked_invalid(values.values), rasterized=True,
+                                **value_scale(values.values))
         axes.set_facecolor("0.75")
         axes.grid(False)
-        axes.set(xlabel=axis_label(across), ylabel=axis_label(up), xscale=scale_of(across), yscale=scale_of(up))
+        axes.set(xlabel=axis_label(across), ylabel=axis_label(up), xscale=scale_of(across),
+                 yscale=scale_of(up))
         for axis in (axes.xaxis, axes.yaxis):
             if axis.get_scale() == "log":
                 plain_numbers(axis)
         figure.colorbar(image, ax=axes, label=label(values))
     failed = int(numpy.isnan(values.values.astype(float)).sum())
     if failed:
-        axes.set_title(f"{'gaps' if axes.lines else 'grey'}: {failed} of {values.size} runs without this number", fontsize="small", color="0.3")
+        axes.set_title(f"{'gaps' if axes.lines else 'grey'}: {failed} of {values.size} runs "
+                       "without this number", fontsize="small", color="0.3")
     return figure
 
 
 def lines(axes, values) -> None:
-    """Draws values of one or two dimensions as lines over the last dimension, with a line for each value of the first."""
+    """Draws lines over the last dimension, one for each value of the first of two."""
     across = values[values.dims[-1]]
     if across.dtype.kind in "fiu":
         values = values.sortby(across.name)
         across = values[across.name]
-    positions = [str(text) for text in across.values] if across.dtype.kind not in "fiu" else across.values
+    positions = [str(text)
+                 for text in across.values] if across.dtype.kind not in "fiu" else across.values
     for row in numpy.atleast_2d(values.values):
-        axes.plot(positions, row, marker="o" if values.sizes[across.name] < 30 else None, linestyle="-", markersize=4)
+        axes.plot(positions, row, marker="o" if values.sizes[across.name] < 30 else None,
+                  linestyle="-", markersize=4)
     if values.ndim == 2:
-        axes.legend([str(text) for text in values[values.dims[0]].values], title=axis_label(values[values.dims[0]]))
+        axes.legend([str(text) for text in values[values.dims[0]].values],
+                    title=axis_label(values[values.dims[0]]))
     axes.set_xlabel(axis_label(across))
     if scale_of(across) == "log":
         axes.set_xscale("log")

@@ -1,4 +1,4 @@
-"""How the paper gets one number from others: the same formula takes printed numbers or computed ones."""
+"""How the paper gets numbers from others: a formula takes printed or computed ones."""
 
 import dataclasses
 import math
@@ -10,7 +10,7 @@ from .. import relations
 
 @dataclasses.dataclass(frozen=True)
 class Rule:
-    """A number as a function of others. names: keys of paper.toml, in the order of the function's arguments."""
+    """A number as a function of others. names: keys of paper.toml, in order."""
 
     names: tuple
     value: Callable
@@ -38,29 +38,35 @@ def scaled(stress, slip_velocity_0, slip_velocity):
 
 
 def rules() -> dict:
-    """key of a number -> its rules: the paper's formula first, then other ways that its printed numbers may have gone."""
+    """Returns {key: rules}, the paper's formula first, then other ways to its number."""
+    def free(stress):
+        return relation("slip_velocity", stress=stress)
+
+    def observed(slip, weeks, c, a):
+        return math.pi * slip * 1e-6 / (weeks * 604800) / (c * a)
+
     found = {
         "parkfield_rupture_velocity": [Rule(("rupture_velocity_km_s", "c"), lambda v, c: v / c)],
         "ets_rupture_velocity": [Rule(("ets_rupture_km_day", "c"), lambda v, c: v / 86400 / c)],
-        "ets_slip_velocity": [Rule(("ets_stress",), lambda s: relation("slip_velocity", stress=s)),
-                              Rule(("ets_stress_caption",), lambda s: relation("slip_velocity", stress=s))],
-        "ets_observed_slip_velocity": [Rule(("ets_slip_mm", "ets_weeks", "c", "ets_contact_ratio"), lambda slip, weeks, c, a: math.pi * slip * 1e-6 / (weeks * 604800) / (c * a))],
-        "ets_share": [Rule(("ets_observed_slip_velocity", "ets_slip_velocity"), lambda w, w0: w / w0)],
-    }
+        "ets_slip_velocity": [Rule(("ets_stress",), free), Rule(("ets_stress_caption",), free)],
+        "ets_observed_slip_velocity": [
+            Rule(("ets_slip_mm", "ets_weeks", "c", "ets_contact_ratio"), observed)],
+        "ets_share": [
+            Rule(("ets_observed_slip_velocity", "ets_slip_velocity"), lambda w, w0: w / w0)]}
     for c in ("0", "0.1", "0.5", "2.0"):
-        w = "parkfield_slip_velocity" + (f"_{c}" if c != "0" else "")
-        found[f"parkfield_contact_ratio_{c}"] = [Rule(("slip_velocity_m_s", "c", w), contact_ratio)]
-        found[f"parkfield_stress_mpa_{c}"] = [Rule(("shear_modulus_gpa", f"parkfield_contact_ratio_{c}", "parkfield_stress_used"), stress_mpa)]
+        W = "parkfield_slip_velocity" + (f"_{c}" if c != "0" else "")
+        A, stress = f"parkfield_contact_ratio_{c}", f"parkfield_stress_mpa_{c}"
+        found[A] = [Rule(("slip_velocity_m_s", "c", W), contact_ratio)]
+        found[stress] = [Rule(("shear_modulus_gpa", A, "parkfield_stress_used"), stress_mpa)]
         if c != "0":
-            found[f"parkfield_stress_mpa_{c}"].append(Rule(("parkfield_stress_mpa_0", "parkfield_slip_velocity", w), scaled))
+            names = "parkfield_stress_mpa_0", "parkfield_slip_velocity", W
+            found[stress].append(Rule(names, scaled))
     return found
 
 
 def apply(rule, values) -> float:
-    """A rule on values by key."""
     return rule.value(*(values[name] for name in rule.names))
 
 
 def quoted(rule, texts) -> str:
-    """The printed numbers that a rule takes, for a remark."""
     return ", ".join(texts[name] for name in rule.names)

@@ -26,21 +26,23 @@ def locked(folder):
         yield free
     finally:
         with contextlib.suppress(OSError):
-            fcntl.flock(descriptor, fcntl.LOCK_UN)  # a process that was forked in the meantime also has the descriptor
+            # A process that was forked in the meantime also has the descriptor
+            fcntl.flock(descriptor, fcntl.LOCK_UN)
         os.close(descriptor)
 
 
 def tidy(path):
     """Cleans up after a reproduction that was killed while it wrote `path`.
 
-    An earlier reproduction that it had moved away is restored, and its other folders are removed. Folders that a running process
-    writes are locked and are not touched.
+    An earlier reproduction that it had moved away is restored, and its other folders are removed.
+    Folders that a running process writes are locked and are not touched.
     """
     if not path.parent.is_dir():
         return
     for kind in ("old", "new"):
         for left in sorted(path.parent.iterdir()):
-            if not re.fullmatch(rf"\.{re.escape(path.name)}\.{kind}-\d+", left.name) or left.is_symlink() or not left.is_dir():
+            if not re.fullmatch(rf"\.{re.escape(path.name)}\.{kind}-\d+",
+                                left.name) or left.is_symlink() or not left.is_dir():
                 continue
             with locked(left) as free:
                 if not free:
@@ -53,16 +55,20 @@ def tidy(path):
 
 @contextlib.contextmanager
 def whole_folder(path):
-    """Context manager that yields a temporary folder next to `path`, which replaces `path` at the end.
+    """Context manager that yields a temporary folder next to `path`, which replaces `path` at the
+    end.
 
-    After an error nothing remains of the temporary folder, and an earlier reproduction is unchanged. Raises ValueError if `path` exists and is
-    neither an earlier reproduction nor an empty folder, OSError if it cannot be written.
+    After an error nothing remains of the temporary folder, and an earlier reproduction is
+    unchanged. Raises ValueError if `path` exists and is neither an earlier reproduction nor an
+    empty folder, OSError if it cannot be written.
     """
     path = pathlib.Path(os.path.abspath(path))
     with told_of(path):
         tidy(path)
-    if path.exists() and not (path / "report.html").is_file() and (not path.is_dir() or any(path.iterdir())):
-        raise ValueError(f"-o {path}: exists and is not a reproduction; allowed: a new name, an empty folder or an earlier reproduction")
+    replaceable = not path.exists() or (path / "report.html").is_file()
+    if not replaceable and (not path.is_dir() or any(path.iterdir())):
+        raise ValueError(f"-o {path}: exists and is not a reproduction; allowed: a new name, an "
+                         "empty folder or an earlier reproduction")
     beside, old = (path.with_name(f".{path.name}.{kind}-{os.getpid()}") for kind in ("new", "old"))
 
     def undo():
@@ -89,7 +95,7 @@ def whole_folder(path):
 
 
 def write_picture(folder, picture) -> None:
-    """Writes a picture as SVG and PNG, and its data as NetCDF and CSV. The CSV has one row for each combination of the coordinates."""
+    """Writes a picture as SVG and PNG, and its data as NetCDF and CSV."""
     for ending in ("svg", "png"):
         save(picture.figure, folder / f"{picture.name}.{ending}")
     write_dataset(picture.data, folder / f"{picture.name}.nc")
@@ -97,7 +103,6 @@ def write_picture(folder, picture) -> None:
 
 
 def write_rows(path, rows) -> None:
-    """Writes a table as CSV."""
     file = io.StringIO(newline="")
     writer = csv.DictWriter(file, rows[0].keys())
     writer.writeheader()

@@ -8,7 +8,29 @@ import tomllib
 import xarray
 from matplotlib.figure import Figure
 
+from .._dataset import about
+
 CAPTIONS = pathlib.Path(__file__).with_name("captions.toml")
+
+#: Line styles and colours of the three curves of Figs. 8-10: solid, dashed dotted.
+CURVES = (("-", "C0"), ("--", "C1"), (":", "C2"))
+
+#: Colours of the values that the paper reads off: red for Parkfield, green for the ETS event.
+RED, GREEN = "#c1272d", "#00843d"
+
+#: Markers of the chain, and of the values that the paper prints.
+CHAIN = {"marker": "o", "markersize": 3.2, "color": "black", "markerfacecolor": "white",
+         "linestyle": "none"}
+PRINTED = {"marker": "x", "markersize": 6, "color": RED, "linestyle": "none",
+           "markeredgewidth": 1.6}
+
+#: Titles of the columns of a figure with friction.
+TITLES = {"paper": "closure “paper”", "consistent": "closure “consistent”"}
+
+FRICTION = about("friction coefficient C")
+STRESS = about("initial stress Sigma-", "mu A / pi")
+STRESS_RIGHT = about("stress on the right Sigma+", "mu A / pi")
+SLIP_VELOCITY = about("slip velocity W at x = 0, t = 2 pi", "c A / pi")
 
 
 @dataclasses.dataclass
@@ -21,16 +43,18 @@ class Picture:
     figure: Figure
     data: xarray.Dataset
     command: str = ""  #: command that computes the data again
-    printed: list = dataclasses.field(default_factory=list)  #: (quantity, printed, computed) of each value that the paper reads off the figure
+    # : (quantity, printed, computed) of each value that the paper reads off the figure
+    printed: list = dataclasses.field(default_factory=list)
 
 
 @functools.cache
 def captions() -> dict:
-    """Returns {name of a picture: {"title", "text", "command"}}. Names in braces in the texts are replaced by values of the run."""
+    """Returns {picture: {"title", "text", "command"}}. Texts quote values in braces."""
     return tomllib.loads(CAPTIONS.read_text(encoding="utf-8"))
 
 
 def picture(name, figure, data, printed=(), **facts) -> Picture:
-    """Returns a figure with its texts. printed: values that the paper reads off it. facts: values that the texts quote."""
+    """Returns a figure with its texts. printed: readings. facts: values that texts quote."""
     words = captions()[name]
-    return Picture(name, words["title"].format(**facts), words["text"].format(**facts), figure, data, words["command"].format(**facts), list(printed))
+    return Picture(name, words["title"].format(**facts), words["text"].format(**facts), figure,
+                   data, words["command"].format(**facts), list(printed))

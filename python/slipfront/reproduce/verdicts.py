@@ -1,9 +1,9 @@
-"""Compares printed numbers with computed ones. The first of these verdicts that applies is the verdict:
+"""Compares printed numbers with computed ones. The first of these verdicts that applies counts:
 
 same: the computed number rounds to the printed digits, or satisfies the printed bound.
-follows from a printed number that differs: the paper's formula gives the printed digits if it is applied to other printed numbers.
-the paper rounds or misreads: the numbers differ by at most one unit of the last digit and at most a tenth of the number. For a number
-    that is read off a figure, they may also differ by the error of a ruler.
+follows from a printed number that differs: so does the paper's formula of other printed numbers.
+the paper rounds or misreads: they differ by at most one unit of the last digit and a tenth of the
+    number or, for a number that is read off a figure, by the error of a ruler.
 the paper is wrong: none of these.
 """
 
@@ -20,7 +20,8 @@ WRONG = "the paper is wrong"
 RULER = 2 / 80
 
 #: For each printed bound, a function that returns whether a value satisfies it.
-BOUNDS = {"more than": lambda value, printed: value > printed, "at least": lambda value, printed: value >= printed}
+BOUNDS = {"more than": lambda value, printed: value > printed,
+          "at least": lambda value, printed: value >= printed}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,19 +54,20 @@ def same(value, printed) -> bool:
 
 
 def readable(value, printed) -> bool:
-    """Returns whether the error of a ruler, or of one unit of the last digit, explains the difference from the printed number."""
+    """Returns whether a ruler, or one unit of the last digit, explains the difference."""
     number = float(printed.text)
     if abs(value - number) <= min(unit_of_last_digit(printed.text), abs(number) / 10):
         return True
     if not printed.axis:
         return False
     low, high = printed.axis
-    off, span = (math.log(value / number), math.log(high / low)) if printed.log else (value - number, high - low)
+    off, span = (math.log(value / number),
+                 math.log(high / low)) if printed.log else (value - number, high - low)
     return abs(off) <= RULER * span
 
 
 def verdict(value, printed, by_printed=()) -> str:
-    """Returns the verdict on a printed number. value: the computed number. by_printed: values that follow from the paper's other numbers."""
+    """Returns the verdict on a number. by_printed: values from other printed numbers."""
     if same(value, printed):
         return SAME
     if any(same(other, printed) for other in by_printed):
