@@ -2,8 +2,8 @@
 A barrier stops a pulse
 =======================
 
-Where the contact ratio is larger, a dislocation has more energy. The pulse climbs the barrier as far
-as the dislocations behind push it. Live in the explorer: panel Pulse.
+A dislocation has more energy if the contact ratio is larger. The pulse climbs the barrier as far as
+the dislocations behind push it. Live in the explorer: panel Pulse.
 """
 import slipfront
 from slipfront import plots
