@@ -295,7 +295,7 @@ class Pictures(unittest.TestCase):
         figure = plots.loading(self.run_of_block)
         top, bottom = figure.axes[:2]
         self.assertEqual((top.get_ylabel(), bottom.get_xlabel(), bottom.get_ylabel()), ("force F, MPa", "time t, s", "position x, mm"))
-        self.assertEqual([text.get_text() for text in bottom.get_yticklabels()][::2], [f"{tick * 1e3:.4g}" for tick in bottom.get_yticks()][::2])
+        self.assertEqual([text.get_text() for text in bottom.get_yticklabels()][::2], [f"{tick * 1e3:.4g}".replace("-", "−") for tick in bottom.get_yticks()][::2])
         self.assertEqual(figure.axes[2].get_ylabel(), "mean slip velocity |W|, m s⁻¹")  # a logarithmic scale
         self.assertEqual(plots.slip_event(self.run_of_block).axes[1].get_xlabel(), "slip u, μm")
         axes = plots.catalogue(self.run_of_block.isel(event=[0, 2])).axes  # the other event is tiny, which makes the axes logarithmic
