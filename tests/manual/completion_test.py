@@ -66,7 +66,7 @@ class Bash(Completion):
     def test_completes_files_by_their_endings(self):
         self.assertEqual(self.completions("pulse", ""), {"a.toml", "two words.toml", "folder"})
         self.assertEqual(self.completions("event", ""), {"a.toml", "b.csv", "d.fsp", "e.srf", "two words.toml", "folder"})
-        self.assertEqual(self.completions("event", "a.toml", "-o", ""), {"b.csv", "c.nc", "e.srf", "folder"})
+        self.assertEqual(self.completions("event", "a.toml", "-o", ""), {"b.csv", "c.nc", "d.fsp", "e.srf", "folder"})
         self.assertEqual(self.completions("pulse", "folder/"), {"folder/inside.toml"})
         self.assertEqual(self.completions("explore", "-o", ""), {"f.html", "folder"})
         self.assertEqual(self.completions("reproduce", "-o", ""), {"folder"})
