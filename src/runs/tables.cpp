@@ -11,8 +11,8 @@ namespace slipfront::run {
 
 bool is_fault_model(const std::string& path) try {
   if (path.ends_with(".toml") || path.ends_with(".nc") || path == "-") return false;
-  return path.ends_with(".fsp") || catalogue::is_fault_model(record::read_text(path));
-} catch (const FileError&) {  // its reader reports it
+  return path.ends_with(".fsp") || catalogue::is_fault_model(record::read_regular(path));
+} catch (const FileError&) {  // its reader reports it, or it is a pipe, which can be read only once
   return false;
 }
 
