@@ -58,7 +58,7 @@ chain::ScaledProblem contacts_problem(bool implicit) {
   for (const friction::Definition* law : friction::laws())
     if (law->name == "rate-and-state")
       small.friction = {*law, {0.05, 0.01, 0.015, 0.05, 0.05, 0, 0, 0.1, 0.2, 0.02, 1, 0.1}};
-  small.contact = [a = small.friction.contact_at_start()](double) { return a; };
+  small.contact = [friction = small.friction](double x) { return friction.contact_at_start(x); };
   small.implicit = implicit;
   return small;
 }
