@@ -120,10 +120,10 @@ void GridSteps::find_forces() {
     for (std::size_t i = first; i < last; ++i) {
       const double a = trains.contact.empty() ? 1 : trains.contact[i];
       s.fastest[i] = 2 * a * std::sinh(std::fabs(trains.phi[i])) * std::cosh(trains.psi[i]);
-      std::copy_n(state_of(trains.at[i]).begin(), each_, &s.state_values[i * each_]);
+      std::copy_n(state_of(trains.at[i]).begin(), each_, s.state_values.data() + i * each_);
     }
     problem_.friction.average().mean_strengths(
-        {last - first, &s.fastest[first], &trains.s[first], {&s.state_values[first * each_], each_}},
+        {last - first, &s.fastest[first], &trains.s[first], {s.state_values.data() + first * each_, each_}},
         problem_.friction.closure(), &s.mean_force[first], nullptr);
   });
 }
