@@ -4,7 +4,7 @@ import csv
 import io
 import math
 
-from ._dataset import dataset
+from ._dataset import BOUND, dataset, texts
 from ._messages import shown
 from ._number_table import Quantity, read_numbers
 from ._numbers import np
@@ -135,37 +135,23 @@ def arrivals(table, *, columns=None):
     if not any(error.any() for error in errors):
         notes.append("the arrivals have no errors: the intervals are empty")
     event, begin, end, position, velocity, low, high = zip(*rows)
-    per = ("front",)
+
+    def number(values, long_name, unit="m", dims="front"):
+        return dims, np.array(values), {"long_name": long_name, "units": unit}
+
+    bounds = np.array([low, high]).T
     return dataset(
         {
-            "event": (per, np.array(event, dtype=object), {"long_name": "name of the event"}),
-            "front_begin": (
-                per,
-                np.array(begin),
-                {"long_name": "position of the first gauge", "units": "m"},
-            ),
-            "front_end": (
-                per,
-                np.array(end),
-                {"long_name": "position of the last gauge", "units": "m"},
-            ),
-            "position": (
-                per,
-                np.array(position),
-                {"long_name": "position of the velocity", "units": "m"},
-            ),
-            "velocity": (
-                per,
-                np.array(velocity),
-                {"long_name": "velocity of the front", "units": "m s-1"},
-            ),
-            "velocity_interval": (
-                ("front", "bound"),
-                np.array([low, high]).T,
-                {"long_name": "5 and 95 % of: velocity of the front", "units": "m s-1"},
+            "event": texts("front", event, "name of the event"),
+            "front_begin": number(begin, "position of the first gauge"),
+            "front_end": number(end, "position of the last gauge"),
+            "position": number(position, "position of the velocity"),
+            "velocity": number(velocity, "velocity of the front", "m s-1"),
+            "velocity_interval": number(
+                bounds, "5 and 95 % of: velocity of the front", "m s-1", ("front", "bound")
             ),
         },
-        {"bound": ("bound", ["5 %", "95 %"], {"long_name": "ends of an interval"})},
+        BOUND,
         {"table": found.file, "warnings": "\n".join(notes)},
     )
 
