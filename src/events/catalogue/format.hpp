@@ -2,6 +2,8 @@
 /// \file
 /// The interface of a catalogue format. Each reader defines one format, and read.cpp lists them all.
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +28,14 @@ TableDescription describe_csv(std::string_view text, const std::string& file, co
 inline char first_character(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");
   return first == std::string_view::npos ? '\0' : text[first];
+}
+
+/// Takes the first line from a text, and returns it without its end.
+inline std::string_view take_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
 }
 
 }  // namespace slipfront::catalogue

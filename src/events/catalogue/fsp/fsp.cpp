@@ -197,11 +197,7 @@ FaultModel Reader::finish_model() {
 }
 
 void read(std::string_view text, Reader& reader) {
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    reader.take(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
+  while (!text.empty()) reader.take(take_line(text));
 }
 
 }  // namespace

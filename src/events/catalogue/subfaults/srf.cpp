@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "events/catalogue/fault_geometry.hpp"
+#include "events/catalogue/format.hpp"
 #include "events/catalogue/fsp/fsp.hpp"
 #include "events/catalogue/subfaults/columns.hpp"
 #include "text/characters.hpp"
@@ -19,7 +20,7 @@ class WordStream {
 
   /// The next word; empty at the end.
   std::string_view word() {
-    while (at_ < line_words_.size() ? false : next_line()) {
+    while (at_ >= line_words_.size() && next_line()) {
     }
     return at_ < line_words_.size() ? line_words_[at_++] : std::string_view();
   }
@@ -47,9 +48,7 @@ class WordStream {
  private:
   bool next_line() {
     if (text_.empty()) return false;
-    const std::size_t end = std::min(text_.find('\n'), text_.size());
-    const std::string_view line = trimmed(text_.substr(0, end));
-    text_.remove_prefix(std::min(end + 1, text_.size()));
+    const std::string_view line = trimmed(take_line(text_));
     ++line_;
     line_words_ = line.starts_with('#') ? fsp::Words() : fsp::words(line);
     at_ = 0;

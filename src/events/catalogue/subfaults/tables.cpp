@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "events/catalogue/format.hpp"
 #include "events/catalogue/fsp/fsp.hpp"
 #include "events/catalogue/subfaults/columns.hpp"
 #include "text/characters.hpp"
@@ -16,11 +17,8 @@ using Cells = std::vector<std::string_view>;
 /// Calls `take` with each line that is not blank, and its number.
 template <class Take>
 void for_each_text_line(std::string_view text, const Take& take) {
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    if (const std::string_view line = trimmed(text.substr(0, end)); !line.empty()) take(line, number);
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+  for (std::size_t number = 1; !text.empty(); ++number)
+    if (const std::string_view line = trimmed(take_line(text)); !line.empty()) take(line, number);
 }
 
 Cells split(std::string_view line, char separator) {
