@@ -4,7 +4,7 @@
 #include <string>
 
 #include "lattice/chain/explicit/explicit_chain.hpp"
-#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
 #include "rough_chains.hpp"
 
 namespace {

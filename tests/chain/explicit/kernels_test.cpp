@@ -3,10 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "lattice/chain/explicit/levels/contact_force.hpp"
 #include "lattice/chain/explicit/levels/kernel.hpp"
 #include "lattice/chain/explicit/levels/scheme.hpp"
-#include "lattice/chain/implicit/watched_parts.hpp"
+#include "lattice/chain/implicit/implicit_chain.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lattice/chain/explicit/forces.hpp"
-#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
 #include "lattice/chain/explicit/levels/scheme.hpp"
 #include "lattice/chain/explicit/levels/slab.hpp"
 #include "lattice/chain/explicit/sweep.hpp"
