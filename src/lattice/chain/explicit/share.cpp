@@ -82,7 +82,8 @@ void RankSites::check_execution() const {
 void RankSites::make_slabs() {
   const std::size_t whole = end_block_ - first_block_;
   const auto threads = static_cast<std::size_t>(execution_.threads);
-  execution_.tile = std::max(execution_.tile, 2 * halo);
+  const std::size_t cached = (execution_.tile + 2 * halo) * Sweep::least_arrays / Sweep::arrays(forces_, meter_);
+  execution_.tile = std::max(cached, 4 * halo) - 2 * halo;
   // Sites that move can take several times as long as those at rest, and be at one side. So each thread gets several
   // slabs, of a tile or more.
   constexpr std::size_t each = 8;

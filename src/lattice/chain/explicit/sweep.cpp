@@ -14,73 +14,77 @@ WorkMeter::WorkMeter(const Problem& p, const Scheme& s, const Blocks& blocks, st
     : sums(sums_of_block(p) * (end_block - first_block), 0.0),
       problem_(&p),
       dt_(s.dt),
+      energy_of_turn_(turn * p.grid.spacing),
       blocks_(blocks),
       first_block_(first_block),
       sums_of_block_(sums_of_block(p)) {
   if (!p.forcing && !p.friction.acts()) return;
   for (std::size_t b = first_block; b <= end_block; ++b) begins_.push_back(blocks.begin(b));
-  needs_two_steps_ = p.friction.acts() && p.friction.linear_coefficient();
-  needs_B_ = p.forcing && !p.steady_forcing;
+  if (p.friction.acts())
+    of_each_step_ = p.friction.linear_coefficient()  ? Measured::squares
+                    : p.friction.constant_strength() ? Measured::absolutes
+                                                     : Measured::steps;
+  else if (!p.steady_forcing)
+    of_each_step_ = Measured::steps;
 }
 
-template <class AddTo>
-void WorkMeter::add(std::size_t which, std::size_t begin, std::size_t end, double strength, const AddTo& add_to) {
+BlockSums WorkMeter::sums_of(Kind kind, std::size_t begin, std::size_t end, std::size_t at) {
   const std::size_t first = blocks_.of(begin) - first_block_, after = blocks_.of(end - 1) + 1 - first_block_;
-  const BlockSums to{&begins_[first], after - first, &sums[sums_of_block_ * first + lanes * which], sums_of_block_};
-  const double factor = strength * problem_->grid.spacing;
-  add_to(to, factor, 0);
-  if (problem_->boundary.periodic) return;
-  // Half a spacing belongs to the last site at an end.
-  constexpr std::size_t one[] = {0, 1};
-  if (begin == 0) add_to({one, 1, to.sums, 0}, -factor / 2, 0);
-  if (end == problem_->grid.sites)
-    add_to({one, 1, to.sums + to.stride * (to.blocks - 1), 0}, -factor / 2, end - 1 - begin);
+  const bool has_ends = !problem_->boundary.periodic;  // half a spacing belongs to the site at an end
+  return {.begins = &begins_[first],
+          .blocks = after - first,
+          .sums = &sums[sums_of_block_ * first + lanes * kind],
+          .stride = sums_of_block_,
+          .at = at,
+          .half_first = has_ends && begin == 0,
+          .half_last = has_ends && end == problem_->grid.sites};
+}
+
+StepOfU WorkMeter::step(std::size_t begin, std::size_t end, std::size_t at, double* u, double* D) {
+  const friction::Friction& f = problem_->friction;
+  const double factor = of_each_step_ == Measured::squares     ? *f.linear_coefficient() / dt_ * turn * (7.0 / 6)
+                        : of_each_step_ == Measured::absolutes ? *f.constant_strength()
+                                                               : 0;
+  return {.what = of_each_step_,
+          .u = u,
+          .D = D,
+          .to = sums_of(dissipated, begin, end, at),
+          .factor = factor * energy_of_turn_};
+}
+
+void WorkMeter::add_end_of_squares(double strength, std::size_t begin, std::size_t end, const double* D) {
+  if (of_each_step_ != Measured::squares) return;
+  const StepOfU of_step = step(begin, end, 0, nullptr, nullptr);
+  add_products(of_step.to, strength / 14 * of_step.factor, D, D);
+}
+
+void WorkMeter::add_steady(const double* F, std::size_t begin, std::size_t end, const double* u_start,
+                           const double* u_end) {
+  add_changes(sums_of(supplied, begin, end), energy_of_turn_, F, u_end, u_start);
 }
 
 void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, const Steps& s) {
-  constexpr std::size_t supplied = 0, by_contacts = 2;
-  const long site = static_cast<long>(begin);
-  const auto add_scratch = [&](std::size_t which) {
-    add(which, begin, end, 1,
-        [&](const BlockSums& to, double factor, std::size_t at) { add_values(to, factor, s.scratch + at); });
-  };
-  if (problem_->forcing && forces.steady())
-    add(supplied, begin, end, 1, [&, F = s.F.now](const BlockSums& to, double factor, std::size_t at) {
-      add_products(to, factor, F + at, s.D + at);
-    });
-  if (problem_->forcing && !forces.steady()) {
+  if (needs_B()) {
     works_of_force(s.F.before, s.F.now, s.F.next, s.D, s.B, s.scratch, end - begin);
-    add_scratch(supplied);
+    add_values(sums_of(supplied, begin, end), energy_of_turn_, s.scratch);
   }
   if (forces.contacts().acts()) {
-    forces.energies_of_contacts(site, end - begin, s.u, s.D, s.scratch);
-    add_scratch(by_contacts);
+    forces.energies_of_contacts(static_cast<long>(begin), end - begin, s.u, s.D, s.scratch);
+    add_values(sums_of(by_contacts, begin, end), problem_->grid.spacing, s.scratch);
   }
-  if (problem_->friction.acts()) add_friction(begin, end, s);
+  if (problem_->friction.acts() && of_each_step_ == Measured::steps) add_friction(begin, end, s);
 }
 
 void WorkMeter::add_friction(std::size_t begin, std::size_t end, const Steps& s) {
-  constexpr std::size_t dissipated = 1;
-  const auto add_product = [&](double strength, const double* a, const double* b) {
-    add(dissipated, begin, end, strength,
-        [=](const BlockSums& to, double factor, std::size_t at) { add_products(to, factor, a + at, b + at); });
-  };
   const friction::Friction& friction = problem_->friction;
-  if (const auto C = friction.linear_coefficient()) {
-    add(dissipated, begin, end, *C / dt_, [&](const BlockSums& to, double factor, std::size_t at) {
-      add_squares(to, factor, s.D + at, s.D_before + at);
-    });
-  } else if (const auto f = friction.constant_strength()) {
-    add(dissipated, begin, end, *f,
-        [&](const BlockSums& to, double factor, std::size_t at) { add_absolutes(to, factor, s.D + at); });
-  } else if (friction.steep_at_rest()) {
-    add_product(1, s.applied, s.D);
-  } else {
-    const std::size_t size = end - begin;
-    speeds(1 / dt_, s.D, s.scratch, size);
-    friction.loops().strengths(size, s.scratch, s.states, s.further);
-    add_product(dt_, s.scratch, s.further);
+  if (friction.steep_at_rest()) {
+    add_products(sums_of(dissipated, begin, end), energy_of_turn_, s.applied, s.D);
+    return;
   }
+  const std::size_t size = end - begin;
+  speeds(turn / dt_, s.D, s.scratch, size);
+  friction.loops().strengths(size, s.scratch, s.states, s.further);
+  add_products(sums_of(dissipated, begin, end), dt_ * problem_->grid.spacing, s.scratch, s.further);
 }
 
 namespace {
@@ -115,16 +119,21 @@ Sweep::Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size
       states_(forces.variables() * room_),
       applied_(forces.implicit_speed() ? room_ : 0),
       u_(meter.active() ? room_ : 0),
-      steps_{Aligned(meter.active() ? room_ : 0), Aligned(meter.needs_two_steps() ? room_ : 0)},
+      u_start_(meter.needs_start() ? room_ : 0),
+      D_(meter.active() ? room_ : 0),
       B_(meter.needs_B() ? room_ : 0),
       later_F_{Aligned(forces.steady() ? 0 : room_), Aligned(forces.steady() ? 0 : room_),
                Aligned(forces.steady() ? 0 : room_)},
-      D_(steps_[0].data()),
-      D_before_(meter.needs_two_steps() ? steps_[1].data() : D_),
       left_now_(halo),
       left_old_(halo),
       left_states_(forces.variables() * halo),
       right_states_(forces.variables() * halo) {}
+
+std::size_t Sweep::arrays(const Forces& forces, const WorkMeter& meter) {
+  return least_arrays + (forces.has_contact() ? PeriodicForce::terms : 0) + forces.variables() +
+         (meter.of_each_step() == Measured::nothing ? 0 : 2) + (forces.implicit_speed() ? 2 : 0) +
+         (forces.steady() ? 0 : 3) + (meter.needs_B() ? 2 : 0);
+}
 
 void Sweep::exchange_states() {
   const std::size_t count = forces_.variables() * halo;
@@ -219,17 +228,16 @@ void Sweep::advance(const Tile& t, std::size_t count) {
   const std::size_t last = own + t.width;
   F_ = forces_.F(t.offset);
   forces_.contact_coefficients(t.offset, pad, whole_vectors(last + halo), coefficients_.data());
+  const StepOfU measured = step(t);
+  const std::size_t first = slab_.begin() + t.from;
   for (std::size_t i = 0; i < count; ++i) {
     prefetch(t, i, count);
     LevelSites s = sites_at(t, count - 1 - i);
-    if (i == 0) {
-      begin_steps(s, last);
-    } else if (meter_.active()) {
-      std::swap(D_, D_before_);
-      s.step = {forces_.eps(), u_.data(), D_};
-    }
+    s.step = i == 0 ? first_step(t, s, measured) : measured;
     forces_.begin_level(t.ends, s, slab_.outflow);
-    if (i > 0) {
+    if (i == 0) {
+      meter_.add_end_of_squares(1, first, first + t.width, D_.data() + own);
+    } else {
       finish_step(t, s);
       next_F(t, i);
       s.F = F_;
@@ -254,16 +262,22 @@ void Sweep::next_F(const Tile& t, std::size_t level) {
   F_ = {F_.now, F_.next, next};
 }
 
-/// Computes u, and the step before if it is needed.
-void Sweep::begin_steps(const LevelSites& s, std::size_t last) {
-  if (!meter_.active()) return;
-  if (!meter_.needs_two_steps()) {
-    forces_.displacements(s.coefficients, now_, u_.data(), own, whole_vectors(last));
-    return;
-  }
-  forces_.displacements(s.coefficients, before_, u_.data(), own, whole_vectors(last));
-  forces_.displacements(s.coefficients, now_, y_.data(), own, whole_vectors(last));
-  keep_differences(y_.data() + own, u_.data() + own, D_ + own, last - own);
+/// What the first loop measures of the steps of a tile.
+StepOfU Sweep::step(const Tile& t) {
+  if (!meter_.active()) return {};
+  const std::size_t first = slab_.begin() + t.from;
+  StepOfU step = meter_.step(first, first + t.width, own, u_.data(), D_.data());
+  step.eps = forces_.eps();
+  return step;
+}
+
+/// Lets the first loop of a sweep keep u and the step before, which it does not measure again.
+StepOfU Sweep::first_step(const Tile& t, const LevelSites& s, StepOfU measured) {
+  const std::size_t end = whole_vectors(own + t.width);
+  if (meter_.needs_start()) forces_.displacements(s.coefficients, now_, u_start_.data(), own, end);
+  if (measured.what == Measured::squares) forces_.displacements(s.coefficients, before_, u_.data(), own, end);
+  if (measured.what != Measured::nothing) measured.what = Measured::steps;
+  return measured;
 }
 
 /// Measures the work of the step to this level, and then advances the state variables by it.
@@ -272,8 +286,7 @@ void Sweep::finish_step(const Tile& t, const LevelSites& s) {
     const std::size_t first = slab_.begin() + t.from;
     const friction::LocalStates states = s.states.values == nullptr ? s.states : s.states.from(own);
     meter_.add(forces_, first, first + t.width,
-               {.D = D_ + own,
-                .D_before = D_before_ + own,
+               {.D = D_.data() + own,
                 .B = B_.data() + own,
                 .u = u_.data() + own,
                 .F = F_.from(own),
@@ -298,9 +311,12 @@ void Sweep::last_step(const Tile& t) {
     forces_.next_coefficients(t.offset, own, whole_vectors(last), coefficients_.data());
   }
   if (meter_.active()) {
+    const std::size_t first = slab_.begin() + t.from;
     forces_.displacements(s.coefficients, now_, y_.data(), own, whole_vectors(last));
-    std::swap(D_, D_before_);
-    keep_differences(y_.data() + own, u_.data() + own, D_ + own, t.width);
+    measure_step(step(t), y_.data(), t.width);
+    meter_.add_end_of_squares(-1, first, first + t.width, D_.data() + own);
+    if (meter_.needs_start())
+      meter_.add_steady(F_.now + own, first, first + t.width, u_start_.data() + own, y_.data() + own);
   }
   finish_step(t, s);
 }

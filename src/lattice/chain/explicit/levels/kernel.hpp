@@ -56,11 +56,30 @@ struct LevelRule {
 
 inline constexpr std::size_t lanes = 8;  ///< ranges are multiples of this; arrays are aligned to this number of doubles
 
-/// u at the level that the first loop starts from, if the step since the level before is wanted: D gets the step in
-/// radians, and u (turns) its value at this level.
+/// Consecutive blocks of sites: block i has those from begins[i] to begins[i + 1], counted from begins[0] on, which is
+/// at `at` in arrays. Its sum is that of `lanes` numbers, one for each lane of a vector, from sums + i stride on. All
+/// begin at whole vectors, so that the order of a sum depends only on its block. The site at the end of a chain has
+/// half a spacing. Arrays
+/// end with whole vectors.
+struct BlockSums {
+  const std::size_t* begins = nullptr;
+  std::size_t blocks = 0;
+  double* sums = nullptr;
+  std::size_t stride = 0, at = 0;
+  bool half_first = false, half_last = false;
+
+  std::size_t begin(std::size_t i) const { return at + (begins[i] - begins[0]); }
+};
+
+/// What the first loop measures on its way: u at the level that it starts from, in turns, and the step D since the
+/// level before. Sums of blocks get, times `factor`, |D| or D (D - D_before / 7) (WorkMeter).
+enum class Measured { nothing, steps, absolutes, squares };
 struct StepOfU {
+  Measured what = Measured::nothing;
   double eps = 0;
-  double *u = nullptr, *D = nullptr;
+  double *u = nullptr, *D = nullptr;  ///< at the level before; they become those of this level
+  BlockSums to = {};
+  double factor = 0;
 };
 
 /// The first loop, over [begin, end). `old` is the level before, and may be the same array as `next`.
@@ -81,9 +100,9 @@ void displacements(const PeriodicForce& sine, double eps, const double* a2, cons
 /// null if a is 1 everywhere.
 void displacements(const PeriodicForce& f, double eps, const double* coefficients, const double* z, double* u,
                    std::size_t begin, std::size_t end);
-/// Computes the step D from u to u_next, in radians, and sets u to u_next.
-void keep_differences(const double* u_next, double* u, double* D, std::size_t size);
-/// Computes the second difference of z over levels, in radians.
+/// Measures the step to u_next, as the first loop does, on the first `size` sites of blocks.
+void measure_step(const StepOfU& step, const double* u_next, std::size_t size);
+/// Computes the second difference of z over levels.
 void second_differences(const double* before, const double* now, const double* next, double* B, std::size_t size);
 
 /// The second loop. It reads y from begin - 1 to end.
@@ -113,26 +132,16 @@ void take_speeds(double per_step, double per_weight, const double* from, const d
 void velocities(double per_step, const double* now, const double* next, double* velocity, std::size_t size);
 /// Sets `speed` to |D| times `per_step`.
 void speeds(double per_step, const double* D, double* speed, std::size_t size);
-/// Consecutive blocks of sites: block i has those from begins[i] to begins[i + 1], counted from begins[0] on. Its sum
-/// is that of `lanes` numbers, one for each lane of a vector, from sums + i stride on.
-struct BlockSums {
-  const std::size_t* begins;
-  std::size_t blocks;
-  double* sums;
-  std::size_t stride;
-};
-/// Add `factor` times a, |a| or the products of a and b to the sums of their blocks. The order depends only on the
-/// blocks.
+/// Add `factor` times a or the products of a and b to the sums of blocks, or of a and the differences of b and c. The
+/// arrays begin at the first site of the blocks.
 void add_values(const BlockSums& to, double factor, const double* a);
 void add_products(const BlockSums& to, double factor, const double* a, const double* b);
-/// Adds `factor` times D^2 + (D - D_before)^2 / 12 of each site (WorkMeter).
-void add_squares(const BlockSums& to, double factor, const double* D, const double* D_before);
-void add_absolutes(const BlockSums& to, double factor, const double* a);
-/// The work of a force F in a step of each site (WorkMeter).
+void add_changes(const BlockSums& to, double factor, const double* a, const double* b, const double* c);
+/// The work of a force F in a step of each site, in turns (WorkMeter).
 void works_of_force(const double* F_before, const double* F_now, const double* F_next, const double* D, const double* B,
                     double* work, std::size_t size);
-/// Energy that contacts give to the substrate at each site when a^2 changes from a2 to a2_next. The step D (radians)
-/// ends at `u` (turns).
+/// Energy that contacts give to the substrate at each site when a^2 changes from a2 to a2_next. The step D ends at `u`
+/// (turns).
 void energies_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next, const double* u,
                           const double* D, double* energy, std::size_t size);
 
