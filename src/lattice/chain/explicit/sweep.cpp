@@ -28,49 +28,47 @@ WorkMeter::WorkMeter(const Problem& p, const Scheme& s, const Blocks& blocks, st
     of_each_step_ = Measured::steps;
 }
 
-BlockSums WorkMeter::sums_of(Kind kind, std::size_t begin, std::size_t end, std::size_t at) {
+BlockSums WorkMeter::sums_of(Kind kind, std::vector<double>& energies, std::size_t begin, std::size_t end,
+                             std::size_t at) const {
   const std::size_t first = blocks_.of(begin) - first_block_, after = blocks_.of(end - 1) + 1 - first_block_;
   const bool has_ends = !problem_->boundary.periodic;  // half a spacing belongs to the site at an end
   return {.begins = &begins_[first],
           .blocks = after - first,
-          .sums = &sums[sums_of_block_ * first + lanes * kind],
+          .sums = &energies[sums_of_block_ * first + lanes * kind],
           .stride = sums_of_block_,
           .at = at,
           .half_first = has_ends && begin == 0,
           .half_last = has_ends && end == problem_->grid.sites};
 }
 
-StepOfU WorkMeter::step(std::size_t begin, std::size_t end, std::size_t at, double* u, double* D) {
+StepOfU WorkMeter::step(std::size_t begin, std::size_t end, std::size_t at) {
   const friction::Friction& f = problem_->friction;
-  const double factor = of_each_step_ == Measured::squares     ? *f.linear_coefficient() / dt_ * turn * (7.0 / 6)
+  const double factor = of_each_step_ == Measured::squares     ? *f.linear_coefficient() / dt_ * turn
                         : of_each_step_ == Measured::absolutes ? *f.constant_strength()
                                                                : 0;
-  return {.what = of_each_step_,
-          .u = u,
-          .D = D,
-          .to = sums_of(dissipated, begin, end, at),
-          .factor = factor * energy_of_turn_};
+  return {.what = of_each_step_, .to = sums_of(dissipated, sums, begin, end, at), .factor = factor * energy_of_turn_};
 }
 
-void WorkMeter::add_end_of_squares(double strength, std::size_t begin, std::size_t end, const double* D) {
-  if (of_each_step_ != Measured::squares) return;
-  const StepOfU of_step = step(begin, end, 0, nullptr, nullptr);
-  add_products(of_step.to, strength / 14 * of_step.factor, D, D);
-}
-
-void WorkMeter::add_steady(const double* F, std::size_t begin, std::size_t end, const double* u_start,
-                           const double* u_end) {
-  add_changes(sums_of(supplied, begin, end), energy_of_turn_, F, u_end, u_start);
+void WorkMeter::add_potential(double strength, const double* F, std::size_t begin, std::size_t end, const double* u,
+                              std::vector<double>& energies) const {
+  add_products(sums_of(supplied, energies, begin, end), strength * energy_of_turn_, F, u);
 }
 
 void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, const Steps& s) {
-  if (needs_B()) {
-    works_of_force(s.F.before, s.F.now, s.F.next, s.D, s.B, s.scratch, end - begin);
-    add_values(sums_of(supplied, begin, end), energy_of_turn_, s.scratch);
+  if (needs_step_before()) {
+    const auto &before = forces.weights(s.ahead - 2), &now = forces.weights(s.ahead - 1),
+               &next = forces.weights(s.ahead);
+    ForceTerms::Weights of_D{}, of_B{};
+    for (std::size_t i = 0; i < of_D.size(); ++i) {
+      of_D[i] = (now[i] + next[i]) * 0.5;
+      of_B[i] = (next[i] - before[i]) * (1.0 / 12);
+    }
+    add_works(sums_of(supplied, sums, begin, end), energy_of_turn_, forces.terms(static_cast<long>(begin)), of_D, of_B,
+              s.D, s.D_before);
   }
   if (forces.contacts().acts()) {
     forces.energies_of_contacts(static_cast<long>(begin), end - begin, s.u, s.D, s.scratch);
-    add_values(sums_of(by_contacts, begin, end), problem_->grid.spacing, s.scratch);
+    add_values(sums_of(by_contacts, sums, begin, end), problem_->grid.spacing, s.scratch);
   }
   if (problem_->friction.acts() && of_each_step_ == Measured::steps) add_friction(begin, end, s);
 }
@@ -78,13 +76,13 @@ void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, co
 void WorkMeter::add_friction(std::size_t begin, std::size_t end, const Steps& s) {
   const friction::Friction& friction = problem_->friction;
   if (friction.steep_at_rest()) {
-    add_products(sums_of(dissipated, begin, end), energy_of_turn_, s.applied, s.D);
+    add_products(sums_of(dissipated, sums, begin, end), energy_of_turn_, s.applied, s.D);
     return;
   }
   const std::size_t size = end - begin;
   speeds(turn / dt_, s.D, s.scratch, size);
   friction.loops().strengths(size, s.scratch, s.states, s.further);
-  add_products(sums_of(dissipated, begin, end), dt_ * problem_->grid.spacing, s.scratch, s.further);
+  add_products(sums_of(dissipated, sums, begin, end), dt_ * problem_->grid.spacing, s.scratch, s.further);
 }
 
 namespace {
@@ -118,12 +116,11 @@ Sweep::Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size
       coefficients_(forces.has_contact() ? PeriodicForce::terms * room_ : 0),
       states_(forces.variables() * room_),
       applied_(forces.implicit_speed() ? room_ : 0),
-      u_(meter.active() ? room_ : 0),
-      u_start_(meter.needs_start() ? room_ : 0),
-      D_(meter.active() ? room_ : 0),
-      B_(meter.needs_B() ? room_ : 0),
-      later_F_{Aligned(forces.steady() ? 0 : room_), Aligned(forces.steady() ? 0 : room_),
-               Aligned(forces.steady() ? 0 : room_)},
+      u_(meter.of_each_step() != Measured::nothing ? room_ : 0),
+      steps_{Aligned(meter.of_each_step() != Measured::nothing ? room_ : 0),
+             Aligned(meter.needs_step_before() ? room_ : 0)},
+      D_(steps_[0].data()),
+      D_before_(meter.needs_step_before() ? steps_[1].data() : D_),
       left_now_(halo),
       left_old_(halo),
       left_states_(forces.variables() * halo),
@@ -132,7 +129,7 @@ Sweep::Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size
 std::size_t Sweep::arrays(const Forces& forces, const WorkMeter& meter) {
   return least_arrays + (forces.has_contact() ? PeriodicForce::terms : 0) + forces.variables() +
          (meter.of_each_step() == Measured::nothing ? 0 : 2) + (forces.implicit_speed() ? 2 : 0) +
-         (forces.steady() ? 0 : 3) + (meter.needs_B() ? 2 : 0);
+         (meter.needs_step_before() ? 3 : 0);
 }
 
 void Sweep::exchange_states() {
@@ -209,15 +206,13 @@ void Sweep::prefetch(const Tile& t, std::size_t level, std::size_t count) const 
 
 /// The sites to compute at a level after which `rest` levels follow.
 LevelSites Sweep::sites_at(const Tile& t, std::size_t rest) {
-  const bool keeps_before = forces_.implicit_speed() || meter_.needs_B();
   LevelSites s{.offset = t.offset,
                .left = is_end(t.ends.left) ? own : own - rest,
                .right = is_end(t.ends.right) ? own + t.width : own + t.width + rest,
                .before = before_,
                .now = now_,
-               .next = keeps_before ? spare_ : before_,
-               .y = y_.data(),
-               .F = F_};
+               .next = forces_.implicit_speed() ? spare_ : before_,
+               .y = y_.data()};
   if (forces_.has_contact()) s.coefficients = coefficients_.data();
   if (forces_.variables() > 0) s.states = {states_.data(), forces_.variables()};
   if (forces_.implicit_speed()) s.applied = applied_.data();
@@ -226,70 +221,62 @@ LevelSites Sweep::sites_at(const Tile& t, std::size_t rest) {
 
 void Sweep::advance(const Tile& t, std::size_t count) {
   const std::size_t last = own + t.width;
-  F_ = forces_.F(t.offset);
   forces_.contact_coefficients(t.offset, pad, whole_vectors(last + halo), coefficients_.data());
-  const StepOfU measured = step(t);
-  const std::size_t first = slab_.begin() + t.from;
+  StepOfU measured = step(t);
   for (std::size_t i = 0; i < count; ++i) {
     prefetch(t, i, count);
     LevelSites s = sites_at(t, count - 1 - i);
+    s.ahead = static_cast<long>(i);
+    take_turns(measured);
     s.step = i == 0 ? first_step(t, s, measured) : measured;
     forces_.begin_level(t.ends, s, slab_.outflow);
-    if (i == 0) {
-      meter_.add_end_of_squares(1, first, first + t.width, D_.data() + own);
-    } else {
-      finish_step(t, s);
-      next_F(t, i);
-      s.F = F_;
-    }
+    if (i > 0) finish_step(t, s);
     forces_.add_load_and_friction(t.ends, s);
-    if (meter_.needs_B()) second_differences(before_ + own, now_ + own, s.next + own, B_.data() + own, t.width);
     if (s.next == before_) {
       std::swap(before_, now_);
     } else {
       spare_ = std::exchange(before_, std::exchange(now_, spare_));
     }
   }
-  last_step(t);
-}
-
-/// Moves F to this level of an advance.
-void Sweep::next_F(const Tile& t, std::size_t level) {
-  if (forces_.steady()) return;
-  double* const next = later_F_[level % 3].data();
-  const std::size_t size = t.width + 2 * halo + 2;  // add_drive reads one more on either side
-  forces_.find_later_F(level + 1, t.offset + static_cast<long>(pad) - 1, size, next + pad - 1);
-  F_ = {F_.now, F_.next, next};
+  last_step(t, count);
 }
 
 /// What the first loop measures of the steps of a tile.
 StepOfU Sweep::step(const Tile& t) {
-  if (!meter_.active()) return {};
+  if (meter_.of_each_step() == Measured::nothing) return {};
   const std::size_t first = slab_.begin() + t.from;
-  StepOfU step = meter_.step(first, first + t.width, own, u_.data(), D_.data());
+  StepOfU step = meter_.step(first, first + t.width, own);
   step.eps = forces_.eps();
+  step.u = u_.data();
   return step;
+}
+
+/// The step before moves to the array of that before it.
+void Sweep::take_turns(StepOfU& step) {
+  std::swap(D_, D_before_);
+  step.D = D_;
+  step.D_before = D_before_;
 }
 
 /// Lets the first loop of a sweep keep u and the step before, which it does not measure again.
 StepOfU Sweep::first_step(const Tile& t, const LevelSites& s, StepOfU measured) {
   const std::size_t end = whole_vectors(own + t.width);
-  if (meter_.needs_start()) forces_.displacements(s.coefficients, now_, u_start_.data(), own, end);
-  if (measured.what == Measured::squares) forces_.displacements(s.coefficients, before_, u_.data(), own, end);
+  if (measured.what == Measured::squares || meter_.needs_step_before())
+    forces_.displacements(s.coefficients, before_, u_.data(), own, end);
   if (measured.what != Measured::nothing) measured.what = Measured::steps;
   return measured;
 }
 
 /// Measures the work of the step to this level, and then advances the state variables by it.
 void Sweep::finish_step(const Tile& t, const LevelSites& s) {
-  if (meter_.active()) {
+  if (meter_.of_each_step() != Measured::nothing) {
     const std::size_t first = slab_.begin() + t.from;
     const friction::LocalStates states = s.states.values == nullptr ? s.states : s.states.from(own);
     meter_.add(forces_, first, first + t.width,
-               {.D = D_.data() + own,
-                .B = B_.data() + own,
+               {.D = D_ + own,
+                .D_before = D_before_ + own,
                 .u = u_.data() + own,
-                .F = F_.from(own),
+                .ahead = s.ahead,
                 .applied = applied_.data() + own,
                 .states = states,
                 .scratch = y_.data() + own,
@@ -302,21 +289,20 @@ void Sweep::finish_step(const Tile& t, const LevelSites& s) {
 
 /// Finishes the step to the last level. Contacts that change must be advanced first, because the displacement at the
 /// next level depends on them. Friction has acted already.
-void Sweep::last_step(const Tile& t) {
+void Sweep::last_step(const Tile& t, std::size_t count) {
   const std::size_t last = own + t.width;
-  const LevelSites s = sites_at(t, 0);
+  LevelSites s = sites_at(t, 0);
+  s.ahead = static_cast<long>(count);
   if (forces_.contacts().acts()) {
     forces_.age(t.offset + static_cast<long>(own), t.width, before_ + own, now_ + own,
                 states_.data() + forces_.variables() * own);
     forces_.next_coefficients(t.offset, own, whole_vectors(last), coefficients_.data());
   }
-  if (meter_.active()) {
-    const std::size_t first = slab_.begin() + t.from;
+  if (meter_.of_each_step() != Measured::nothing) {
     forces_.displacements(s.coefficients, now_, y_.data(), own, whole_vectors(last));
-    measure_step(step(t), y_.data(), t.width);
-    meter_.add_end_of_squares(-1, first, first + t.width, D_.data() + own);
-    if (meter_.needs_start())
-      meter_.add_steady(F_.now + own, first, first + t.width, u_start_.data() + own, y_.data() + own);
+    StepOfU measured = step(t);
+    take_turns(measured);
+    measure_step(measured, y_.data(), t.width);
   }
   finish_step(t, s);
 }

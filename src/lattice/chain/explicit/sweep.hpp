@@ -13,10 +13,8 @@ namespace slipfront::chain {
 /// fourth order of the scheme. For a step from u to u + D, with the second difference B over levels, the work follows
 /// from
 ///     int F u_t dt = F_mean D + (F_next - F_before) B / 12,     int u_t^2 dt = (D^2 + B^2 / 12) / dt,
-/// up to terms that cancel from step to step. B is that of u for friction. For a force that changes, that of z is
-/// enough. A force that does not change is measured at once for all steps of a sweep. With B = D - D_before, the
-/// squares of steps from D_0 to D_N have the sum
-///     sum (D^2 + B^2 / 12) = 7/6 (sum D (D - D_before / 7) + (D_0^2 - D_N^2) / 14).
+/// up to terms that cancel from step to step. A force that does not change has the potential -F u: its work follows
+/// from u at the start and now.
 class WorkMeter {
  public:
   WorkMeter(const Problem& problem, const Scheme& scheme, const Blocks& blocks, std::size_t first_block,
@@ -26,26 +24,24 @@ class WorkMeter {
   bool active() const { return !begins_.empty(); }
   /// What is measured of each step in the first loop.
   Measured of_each_step() const { return of_each_step_; }
-  /// Whether the work needs the displacement at the start of a sweep, and B.
-  bool needs_start() const { return active() && problem_->forcing && problem_->steady_forcing; }
-  bool needs_B() const { return active() && problem_->forcing && !problem_->steady_forcing; }
+  /// Whether the work needs the step before each step.
+  bool needs_step_before() const { return active() && problem_->forcing && !problem_->steady_forcing; }
   /// What the first loop measures on sites [begin, end), whole blocks that are at `at` in its arrays.
-  StepOfU step(std::size_t begin, std::size_t end, std::size_t at, double* u, double* D);
+  StepOfU step(std::size_t begin, std::size_t end, std::size_t at);
 
   /// A step of consecutive sites.
   struct Steps {
-    const double *D, *B, *u;  ///< u (turns) at the end of the step
-    ForceLevels F;            ///< at the level where the step begins
-    const double* applied;    ///< friction that is neither linear nor constant
+    const double *D, *D_before, *u;  ///< u (turns) at the end of the step
+    long ahead;                      ///< levels of its end after the present one of the forces
+    const double* applied;           ///< friction that is neither linear nor constant
     friction::LocalStates states;
     double *scratch, *further;  ///< room for as many numbers; `further` may be `applied`
   };
   /// Measures what the first loop does not, for a step of such sites from the level of the forces.
   void add(const Forces& forces, std::size_t begin, std::size_t end, const Steps& steps);
-  /// Adds `strength` times D^2 / 14 to what the first loop measures, if it is squares.
-  void add_end_of_squares(double strength, std::size_t begin, std::size_t end, const double* D);
-  /// Measures the work of a force that does not change between two displacements.
-  void add_steady(const double* F, std::size_t begin, std::size_t end, const double* u_start, const double* u_end);
+  /// Adds `strength` times F u of a force that does not change, at sites [begin, end), to the energies supplied.
+  void add_potential(double strength, const double* F, std::size_t begin, std::size_t end, const double* u,
+                     std::vector<double>& energies) const;
 
   /// The energies of each block of this rank, one block after the other: those supplied, dissipated, and, if contacts
   /// change, given to the substrate by them; each as a sum of `lanes` numbers.
@@ -55,7 +51,8 @@ class WorkMeter {
 
  private:
   enum Kind : std::size_t { supplied, dissipated, by_contacts };
-  BlockSums sums_of(Kind kind, std::size_t begin, std::size_t end, std::size_t at = 0);
+  BlockSums sums_of(Kind kind, std::vector<double>& energies, std::size_t begin, std::size_t end,
+                    std::size_t at = 0) const;
   void add_friction(std::size_t begin, std::size_t end, const Steps& steps);
 
   const Problem* problem_;
@@ -97,11 +94,11 @@ class Sweep {
   void store(const Tile& tile);
   void advance(const Tile& tile, std::size_t count);
   LevelSites sites_at(const Tile& tile, std::size_t rest);
-  void next_F(const Tile& tile, std::size_t level);
   StepOfU first_step(const Tile& tile, const LevelSites& sites, StepOfU measured);
   StepOfU step(const Tile& tile);
+  void take_turns(StepOfU& step);
   void finish_step(const Tile& tile, const LevelSites& sites);
-  void last_step(const Tile& tile);
+  void last_step(const Tile& tile, std::size_t count);
   void prefetch(const Tile& tile, std::size_t level, std::size_t count) const;
 
   Slab& slab_;
@@ -111,9 +108,8 @@ class Sweep {
   std::size_t room_;
   Aligned arrays_[3];
   double *before_, *now_, *spare_;  ///< the levels, which take turns in these arrays
-  Aligned y_, coefficients_, states_, applied_, u_, u_start_, D_, B_;
-  Aligned later_F_[3];
-  ForceLevels F_;                ///< at the present level of a tile; later levels take turns in `later_F_`
+  Aligned y_, coefficients_, states_, applied_, u_, steps_[2];
+  double *D_, *D_before_;        ///< the last two steps, which take turns in `steps_` if both are needed
   Aligned left_now_, left_old_;  ///< the sites left of the next tile before this one changes them
   Aligned left_states_, right_states_;
 };

@@ -12,83 +12,95 @@ namespace {
 
 constexpr std::size_t terms = PeriodicForce::terms;
 
-/// Calls site(j, k) for each site j of [begin, end), which are whole vectors; k is its lane. `part` gets what it
-/// returns.
-template <bool sums, class Site>
-[[gnu::always_inline]] inline void each_vector(std::size_t begin, std::size_t end, double (&part)[lanes],
-                                               const Site& site) {
+/// What a site adds to a sum: first + second / 12.
+struct Term {
+  double first = 0, second = 0;
+};
+struct LaneSums {
+  double first[lanes] = {}, second[lanes] = {};
+};
+
+/// Calls site(j, k) for each site j of [begin, end), which are whole vectors; k is its lane. The first `count` numbers
+/// of what it returns are added to `part`.
+template <int count, class Site>
+[[gnu::always_inline]] inline void each_vector(std::size_t begin, std::size_t end, LaneSums& part, const Site& site) {
   for (std::size_t j = begin; j < end; j += lanes) {
     SLIPFRONT_INDEPENDENT
     for (std::size_t k = 0; k < lanes; ++k) {
-      const double term = site(j + k, k);
-      if constexpr (sums) part[k] += term;
+      const Term term = site(j + k, k);
+      if constexpr (count > 0) part.first[k] += term.first;
+      if constexpr (count > 1) part.second[k] += term.second;
     }
   }
 }
 
 /// Like each_vector for the vector from site j on of block i. Sites outside the block add nothing.
-template <class Site>
-[[gnu::always_inline]] inline void odd_vector(const BlockSums& to, std::size_t i, std::size_t j, double (&part)[lanes],
+template <int count, class Site>
+[[gnu::always_inline]] inline void odd_vector(const BlockSums& to, std::size_t i, std::size_t j, LaneSums& part,
                                               const Site& site) {
   const std::size_t first = to.begin(i), last = to.begin(i + 1) - 1;
-  double term[lanes] = {};
-  each_vector<true>(j, j + lanes, term, site);
+  LaneSums odd;
+  each_vector<count>(j, j + lanes, odd, site);
   for (std::size_t k = 0; k < lanes && j + k <= last; ++k) {
     const bool half =
         (to.half_first && i == 0 && j + k == first) || (to.half_last && i + 1 == to.blocks && j + k == last);
-    part[k] += half ? term[k] / 2 : term[k];
+    part.first[k] += half ? odd.first[k] / 2 : odd.first[k];
+    part.second[k] += half ? odd.second[k] / 2 : odd.second[k];
   }
 }
 
 /// Calls site(j, k) for each site of [begin, end), whole vectors. The sums of blocks get `factor` times what it
 /// returns.
-template <class Site>
+template <int count, class Site>
 [[gnu::always_inline]] inline void each_sum(const BlockSums& to, double factor, std::size_t begin, std::size_t end,
                                             const Site& site) {
-  double unused[lanes];
-  each_vector<false>(begin, to.at, unused, site);
+  LaneSums unused;
+  each_vector<0>(begin, to.at, unused, site);
   std::size_t j = to.at;
   for (std::size_t i = 0; i < to.blocks; ++i) {
     const std::size_t until = to.begin(i + 1), whole = until / lanes * lanes;
-    double part[lanes] = {};
+    LaneSums part;
     if (to.half_first && i == 0) {
-      odd_vector(to, i, j, part, site);
+      odd_vector<count>(to, i, j, part, site);
       j += lanes;
     }
     const bool odd = whole < until || (to.half_last && i + 1 == to.blocks);
     const std::size_t even = std::max(j, whole < until || !odd ? whole : whole - lanes);
-    each_vector<true>(j, even, part, site);
+    each_vector<count>(j, even, part, site);
     j = even;
     if (j < until) {
-      odd_vector(to, i, j, part, site);
+      odd_vector<count>(to, i, j, part, site);
       j += lanes;
     }
     double* const sums = to.sums + i * to.stride;
-    for (std::size_t k = 0; k < lanes; ++k) part[k] = sums[k] + factor * part[k];
-    std::memcpy(sums, part, sizeof part);
+    for (std::size_t k = 0; k < lanes; ++k) {
+      if constexpr (count > 1) part.first[k] += part.second[k] * (1.0 / 12);
+      part.first[k] = sums[k] + factor * part.first[k];
+    }
+    std::memcpy(sums, part.first, sizeof part.first);
   }
-  each_vector<false>(j, end, unused, site);
+  each_vector<0>(j, end, unused, site);
 }
 
 /// Keeps u at site j and the step to it, and returns what is measured of the step.
 template <Measured what>
-[[gnu::always_inline]] inline double keep(const StepOfU& step, double u, std::size_t j) {
-  if constexpr (what == Measured::nothing) return 0;
-  const double D = u - step.u[j], less = D - step.D[j] * (1.0 / 7);
+[[gnu::always_inline]] inline Term keep(const StepOfU& step, double u, std::size_t j) {
+  if constexpr (what == Measured::nothing) return {};
+  const double D = u - step.u[j], B = D - step.D_before[j];
   step.u[j] = u;
   step.D[j] = D;
-  if constexpr (what == Measured::squares) return D * less;
-  return what == Measured::absolutes ? std::fabs(D) : 0;
+  if constexpr (what == Measured::squares) return {D * D, B * B};
+  return {std::fabs(D)};
 }
 
 template <Measured what, class Site>
 [[gnu::always_inline]] inline void each_site(const StepOfU& step, std::size_t begin, std::size_t end,
                                              const Site& site) {
-  double unused[lanes];
+  LaneSums unused;
   if constexpr (what == Measured::nothing || what == Measured::steps)
-    each_vector<false>(begin, end, unused, site);
+    each_vector<0>(begin, end, unused, site);
   else
-    each_sum(step.to, step.factor, begin, end, site);
+    each_sum<what == Measured::squares ? 2 : 1>(step.to, step.factor, begin, end, site);
 }
 
 /// S at lane j of a vector with these coefficients.
@@ -238,12 +250,6 @@ SLIPFRONT_CLONES void displacements(const PeriodicForce& force, double eps, cons
   }
 }
 
-SLIPFRONT_CLONES void second_differences(const double* before, const double* now, const double* next, double* B,
-                                         std::size_t size) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) B[j] = (next[j] - now[j]) - (now[j] - before[j]);
-}
-
 SLIPFRONT_CLONES void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end) {
   const std::size_t n = (end - begin) / lanes * lanes;
   const double *left = y + begin - 1, *right = y + begin + 1;
@@ -252,13 +258,50 @@ SLIPFRONT_CLONES void add_neighbours(double spread, const double* y, double* nex
   for (std::size_t j = 0; j < n; ++j) next[j] += spread * (left[j] + right[j]);
 }
 
-SLIPFRONT_CLONES void add_drive(const DriveRule& rule, const double* F_before, const double* F_now,
-                                const double* F_next, double* next, std::size_t size) {
-  const DriveRule r = rule;
-  const double *left = F_now - 1, *right = F_now + 1;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j)
-    next[j] += r.next * F_next[j] + r.before * F_before[j] + r.now * F_now[j] + r.neighbour * (left[j] + right[j]);
+namespace {
+
+constexpr std::size_t terms_at_once = 4;
+
+/// Calls loop.of<n>(first) for all terms, n of them at once from `first` on.
+template <class Loop>
+[[gnu::always_inline]] inline void each_term(const ForceTerms& F, const Loop& loop) {
+  std::size_t first = 0;
+  for (; first + terms_at_once <= F.count; first += terms_at_once) loop.template of<terms_at_once>(first);
+  if (F.count - first == 1) loop.template of<1>(first);
+  if (F.count - first == 2) loop.template of<2>(first);
+  if (F.count - first == 3) loop.template of<3>(first);
+}
+
+struct AddDrive {
+  const ForceTerms& F;
+  const ForceTerms::Weights &own, &beside;
+  double* next;
+  std::size_t size;
+
+  template <std::size_t n>
+  [[gnu::always_inline]] void of(std::size_t first) const {
+    const double *X[n], *Y[n];
+    double c[n], b[n];
+    for (std::size_t s = 0; s < n; ++s) {
+      X[s] = F.X[first + s];
+      Y[s] = F.beside[first + s];
+      c[s] = own[first + s];
+      b[s] = beside[first + s];
+    }
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t j = 0; j < size; ++j) {
+      double sum = next[j];
+      for (std::size_t s = 0; s < n; ++s) sum += c[s] * X[s][j] + b[s] * Y[s][j];
+      next[j] = sum;
+    }
+  }
+};
+
+}  // namespace
+
+SLIPFRONT_CLONES void add_drive(const ForceTerms& F, const ForceTerms::Weights& own, const ForceTerms::Weights& beside,
+                                double* next, std::size_t size) {
+  each_term(F, AddDrive{F, own, beside, next, size});
 }
 
 SLIPFRONT_CLONES void add_steady_drive(const double* drive, double* next, std::size_t size) {
@@ -318,12 +361,13 @@ SLIPFRONT_CLONES void speeds(double per_step, const double* D, double* speed, st
 
 namespace {
 
-/// Adds term(j) of each site of the blocks, counted from the first.
-template <class Term>
-[[gnu::always_inline]] inline void add_terms(BlockSums to, double factor, const Term& term) {
+/// Adds of_site(j) of each site of the blocks, counted from the first.
+template <class OfSite>
+[[gnu::always_inline]] inline void add_terms(BlockSums to, double factor, const OfSite& of_site) {
   to.at = 0;
-  each_sum(
-      to, factor, 0, 0, [&](std::size_t j, std::size_t) __attribute__((always_inline)) { return term(j); });
+  each_sum<1>(to, factor, 0, 0, [&](std::size_t j, std::size_t) __attribute__((always_inline)) {
+    return Term{of_site(j)};
+  });
 }
 
 }  // namespace
@@ -336,16 +380,41 @@ SLIPFRONT_CLONES void add_products(const BlockSums& to, double factor, const dou
   add_terms(to, factor, [=](std::size_t j) { return a[j] * b[j]; });
 }
 
-SLIPFRONT_CLONES void add_changes(const BlockSums& to, double factor, const double* a, const double* b,
-                                  const double* c) {
-  add_terms(to, factor, [=](std::size_t j) { return a[j] * (b[j] - c[j]); });
-}
+namespace {
 
-SLIPFRONT_CLONES void works_of_force(const double* F_before, const double* F_now, const double* F_next, const double* D,
-                                     const double* B, double* work, std::size_t size) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j)
-    work[j] = (F_now[j] + F_next[j]) * 0.5 * D[j] + (F_next[j] - F_before[j]) * B[j] * (1.0 / 12);
+struct AddWorks {
+  const BlockSums& to;
+  double factor;
+  const ForceTerms& F;
+  const ForceTerms::Weights &of_D, &of_B;
+  const double *D, *D_before;
+
+  template <std::size_t n>
+  [[gnu::always_inline]] void of(std::size_t first) const {
+    const double* X[n];
+    double c[n], b[n];
+    for (std::size_t s = 0; s < n; ++s) {
+      X[s] = F.X[first + s];
+      c[s] = of_D[first + s];
+      b[s] = of_B[first + s];
+    }
+    const double *const step = D, *const before = D_before;
+    add_terms(
+        to, factor, [=](std::size_t j) __attribute__((always_inline)) {
+          const double B = step[j] - before[j];
+          double work = 0;
+          for (std::size_t s = 0; s < n; ++s) work += X[s][j] * (c[s] * step[j] + b[s] * B);
+          return work;
+        });
+  }
+};
+
+}  // namespace
+
+SLIPFRONT_CLONES void add_works(const BlockSums& to, double factor, const ForceTerms& F,
+                                const ForceTerms::Weights& of_D, const ForceTerms::Weights& of_B, const double* D,
+                                const double* D_before) {
+  each_term(F, AddWorks{to, factor, F, of_D, of_B, D, D_before});
 }
 
 SLIPFRONT_CLONES void energies_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next,
@@ -356,16 +425,6 @@ SLIPFRONT_CLONES void energies_of_contacts(const PeriodicForce& sine, const doub
     const double cosines = f(u[j] + 0.25) + f(u[j] - D[j] + 0.25);  // over 2 pi
     energy[j] = (a2_next[j] - a2[j]) * (1 - turn / 2 * cosines);
   }
-}
-
-SLIPFRONT_CLONES void weighted_sum(const std::array<double, 8>& weights, const std::array<const double*, 8>& values,
-                                   double* sum, std::size_t size) {
-  const auto w = weights;
-  const auto v = values;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j)
-    sum[j] = ((w[0] * v[0][j] + w[1] * v[1][j]) + (w[2] * v[2][j] + w[3] * v[3][j])) +
-             ((w[4] * v[4][j] + w[5] * v[5][j]) + (w[6] * v[6][j] + w[7] * v[7][j]));
 }
 
 SLIPFRONT_CLONES bool bounded(const double* z, std::size_t size) {

@@ -72,12 +72,13 @@ struct BlockSums {
 };
 
 /// What the first loop measures on its way: u at the level that it starts from, in turns, and the step D since the
-/// level before. Sums of blocks get, times `factor`, |D| or D (D - D_before / 7) (WorkMeter).
+/// level before. Sums of blocks get, times `factor`, |D| or D^2 + B^2 / 12 with B = D - D_before (WorkMeter).
 enum class Measured { nothing, steps, absolutes, squares };
 struct StepOfU {
   Measured what = Measured::nothing;
   double eps = 0;
   double *u = nullptr, *D = nullptr;  ///< at the level before; they become those of this level
+  const double* D_before = nullptr;   ///< where D is at the level before; may be the same array
   BlockSums to = {};
   double factor = 0;
 };
@@ -102,17 +103,22 @@ void displacements(const PeriodicForce& f, double eps, const double* coefficient
                    std::size_t begin, std::size_t end);
 /// Measures the step to u_next, as the first loop does, on the first `size` sites of blocks.
 void measure_step(const StepOfU& step, const double* u_next, std::size_t size);
-/// Computes the second difference of z over levels.
-void second_differences(const double* before, const double* now, const double* next, double* B, std::size_t size);
 
 /// The second loop. It reads y from begin - 1 to end.
 void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end);
 
-/// Adds to z at the next level the effect of a force F, which is shared among the five points of the diamond.
-struct DriveRule {
-  double next = 0, before = 0, now = 0, neighbour = 0;  ///< coefficients, in turns
+/// A force on consecutive sites as a sum of functions X of x, each times a weight that changes from level to level.
+/// `beside` are the sums of X at both neighbours of each site.
+struct ForceTerms {
+  static constexpr std::size_t most = 8;
+  using Weights = std::array<double, most>;
+
+  std::size_t count = 0;
+  std::array<const double*, most> X = {}, beside = {};
 };
-void add_drive(const DriveRule& rule, const double* F_before, const double* F_now, const double* F_next, double* next,
+/// Adds to z at the next level the effect of a force, which is shared among the five points of the diamond: `own` are
+/// the weights of X at the site, `beside` those of its neighbours.
+void add_drive(const ForceTerms& F, const ForceTerms::Weights& own, const ForceTerms::Weights& beside, double* next,
                std::size_t size);
 /// Adds `drive`, which is that effect of a force that does not change.
 void add_steady_drive(const double* drive, double* next, std::size_t size);
@@ -132,22 +138,18 @@ void take_speeds(double per_step, double per_weight, const double* from, const d
 void velocities(double per_step, const double* now, const double* next, double* velocity, std::size_t size);
 /// Sets `speed` to |D| times `per_step`.
 void speeds(double per_step, const double* D, double* speed, std::size_t size);
-/// Add `factor` times a or the products of a and b to the sums of blocks, or of a and the differences of b and c. The
-/// arrays begin at the first site of the blocks.
+/// Add `factor` times a or the products of a and b to the sums of blocks. The arrays begin at the first site of the
+/// blocks.
 void add_values(const BlockSums& to, double factor, const double* a);
 void add_products(const BlockSums& to, double factor, const double* a, const double* b);
-void add_changes(const BlockSums& to, double factor, const double* a, const double* b, const double* c);
-/// The work of a force F in a step of each site, in turns (WorkMeter).
-void works_of_force(const double* F_before, const double* F_now, const double* F_next, const double* D, const double* B,
-                    double* work, std::size_t size);
+/// Adds `factor` times the work of a force in steps D, whose second differences are D - D_before: of_D and of_B are the
+/// weights of X in the factors of both (WorkMeter).
+void add_works(const BlockSums& to, double factor, const ForceTerms& F, const ForceTerms::Weights& of_D,
+               const ForceTerms::Weights& of_B, const double* D, const double* D_before);
 /// Energy that contacts give to the substrate at each site when a^2 changes from a2 to a2_next. The step D ends at `u`
 /// (turns).
 void energies_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next, const double* u,
                           const double* D, double* energy, std::size_t size);
-
-/// The sum of eight arrays with these weights.
-void weighted_sum(const std::array<double, 8>& weights, const std::array<const double*, 8>& values, double* sum,
-                  std::size_t size);
 
 /// Whether every |z| is small enough for the range reduction. It is false if any z is NaN.
 bool bounded(const double* z, std::size_t size);
