@@ -142,7 +142,7 @@ class ForcingInTime {
   std::array<std::vector<double>, nodes> values_;
   std::vector<NodeWeights> nodes_of_terms_;  ///< weights of a term in the values at the nodes
   std::vector<Aligned> terms_, beside_;
-  std::vector<ForceTerms::Weights> weights_;  ///< of the terms, at each level from the one before on
+  std::vector<ForceTerms::Weights> weights_;  ///< weights of the terms, at each level from the one before on
 };
 
 /// Sites [left, right) whose next level is computed, as indices of arrays that begin at site `offset` of the chain. The
