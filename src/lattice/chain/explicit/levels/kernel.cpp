@@ -367,9 +367,8 @@ namespace {
 template <class OfSite>
 [[gnu::always_inline]] inline void add_terms(BlockSums to, double factor, const OfSite& of_site) {
   to.at = 0;
-  each_sum<1>(to, factor, 0, 0, [&](std::size_t j, std::size_t) __attribute__((always_inline)) {
-    return Term{of_site(j)};
-  });
+  each_sum<1>(
+      to, factor, 0, 0, [&](std::size_t j, std::size_t) __attribute__((always_inline)) { return Term{of_site(j)}; });
 }
 
 }  // namespace
