@@ -17,7 +17,7 @@ from scipy.integrate import solve_ivp
 from scipy.ndimage import label
 from scipy.sparse import kron
 
-SETS = int(sys.argv.pop(sys.argv.index("--sets") + 1)) if "--sets" in sys.argv else 3
+SETS = int(sys.argv.pop(sys.argv.index("--sets") + 1)) if "--sets" in sys.argv else 2
 FRICTION = ("strength", "direct_effect", "evolution_effect", "characteristic_slip", "reference_velocity", "initial_state")
 EVENT = 0.01  # slip velocity of an event
 PART = 8  # sites of a part of the chain, whose mean velocity decides on events
