@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "lattice/chain/explicit/explicit_chain.hpp"
-#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "averages/pulse/space/semidiscrete.hpp"
 #include "math/simd/vector_code.hpp"
 #include "slipfront/theory/modulation/modulation.hpp"
-#include "theory/modulation/solve_states.hpp"
+#include "theory/modulation/modulation.hpp"
 
 // Measures the cell stage of a `pulse` run and its two costliest loops. It compares them with the limit of the
 // arithmetic units, which is the rate of a loop of independent fused multiply-adds with the same vector width in the

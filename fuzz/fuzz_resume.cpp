@@ -17,7 +17,7 @@
 #include "runs/record/netcdf/netcdf.hpp"
 #include "runs/record/run_file.hpp"
 #include "slipfront/error.hpp"
-#include "system/files/seal.hpp"
+#include "system/files/whole_file.hpp"
 
 namespace {
 

@@ -5,7 +5,6 @@
 #include "math/digits.hpp"
 #include "runs/fault.hpp"
 #include "runs/record/faults/fault_files.hpp"
-#include "runs/record/faults/fault_texts.hpp"
 #include "slipfront/error.hpp"
 #include "system/files/whole_file.hpp"
 

@@ -9,7 +9,7 @@
 #include "event_output.hpp"
 #include "events/results/columns.hpp"
 #include "population_output.hpp"
-#include "runs/record/events/event_groups.hpp"
+#include "runs/record/events/event_file.hpp"
 
 namespace {
 

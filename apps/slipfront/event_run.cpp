@@ -11,7 +11,7 @@
 #include "interrupts.hpp"
 #include "progress.hpp"
 #include "runs/catalogue.hpp"
-#include "runs/record/events/event_groups.hpp"
+#include "runs/record/events/event_file.hpp"
 #include "system/files/whole_file.hpp"
 
 using slipfront::results::EventResult;

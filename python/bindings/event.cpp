@@ -11,7 +11,7 @@
 #include "bindings.hpp"
 #include "events/results/columns.hpp"
 #include "runs/catalogue.hpp"
-#include "runs/record/events/event_groups.hpp"
+#include "runs/record/events/event_file.hpp"
 #include "slipfront/events/catalogue/read.hpp"
 #include "system/files/whole_file.hpp"
 #include "watch.hpp"

@@ -10,7 +10,6 @@
 
 #include "bindings.hpp"
 #include "runs/record/netcdf/netcdf.hpp"
-#include "system/files/seal.hpp"
 #include "system/files/whole_file.hpp"
 #include "system/machine.hpp"
 #include "text/characters.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "events/catalogue/population.hpp"
-#include "events/finite_fault/sources.hpp"
+#include "events/finite_fault/on_plane.hpp"
 #include "events/results/columns.hpp"
 #include "events/results/evaluate.hpp"
 #include "slipfront/error.hpp"

@@ -11,8 +11,7 @@
 #include "slipfront/scenario/scenario.hpp"
 #include "text/characters.hpp"
 #include "text/file_kind.hpp"
-#include "text/parse_toml.hpp"
-#include "text/toml_text.hpp"
+#include "text/toml.hpp"
 
 namespace slipfront::scenario {
 

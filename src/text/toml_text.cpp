@@ -1,4 +1,4 @@
-#include "text/toml_text.hpp"
+#include "text/toml.hpp"
 
 #include <locale>
 #include <sstream>

@@ -1,11 +1,10 @@
-#include "lattice/chain/event_outputs.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lattice/chain/events/event_log.hpp"
 #include "system/archive.hpp"
 
 namespace slipfront::chain {

@@ -5,7 +5,7 @@
 
 #include "exact_chains.hpp"
 #include "lattice/chain/explicit/explicit_chain.hpp"
-#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
 #include "lattice/chain/model/initial_train.hpp"
 #include "lattice/chain/observe/averages.hpp"
 #include "lattice/chain/observe/totals.hpp"

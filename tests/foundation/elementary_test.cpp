@@ -9,7 +9,7 @@
 #include "math/simd/elliptic_fit.hpp"
 #include "slipfront/math/elliptic.hpp"
 #include "slipfront/theory/modulation/modulation.hpp"
-#include "theory/modulation/solve_states.hpp"
+#include "theory/modulation/modulation.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
-#include "text/toml_text.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "text/toml.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "events/inference/sampling/pulse_state.hpp"
+#include "events/inference/sampling/proposal.hpp"
 #include "events/inference/sampling/weighted_samples.hpp"
 #include "slipfront/events/inference/estimate.hpp"
 #include "slipfront/events/inference/posterior.hpp"

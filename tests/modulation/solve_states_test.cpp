@@ -1,5 +1,3 @@
-#include "theory/modulation/solve_states.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "slipfront/math/elliptic.hpp"
 #include "slipfront/theory/modulation/modulation.hpp"
 #include "theory/modulation/equations.hpp"
+#include "theory/modulation/modulation.hpp"
 
 namespace {
 

@@ -1,5 +1,3 @@
-#include "lattice/plane/direct/lines.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

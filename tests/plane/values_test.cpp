@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "averages/grid/cells.hpp"
+#include "averages/grid/equations.hpp"
 #include "averages/grid/grid_solver.hpp"
 #include "averages/loops/steps.hpp"
 #include "slipfront/error.hpp"

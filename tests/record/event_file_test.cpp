@@ -13,7 +13,6 @@
 #include "runs/record/run_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/events/catalogue/read.hpp"
-#include "system/files/seal.hpp"
 #include "system/files/whole_file.hpp"
 #include "temporary_folder.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "events/finite_fault/sources.hpp"
+#include "events/finite_fault/on_plane.hpp"
 #include "events/inference/sampling/weighted_samples.hpp"
 #include "events/results/columns.hpp"
 #include "events/results/evaluate.hpp"

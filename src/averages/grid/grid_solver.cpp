@@ -8,7 +8,7 @@
 
 #include "averages/grid/steps.hpp"
 #include "lattice/plane/budget.hpp"
-#include "lattice/plane/direct/lines.hpp"
+#include "lattice/plane/direct/sites.hpp"
 #include "math/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/lattice/plane/solvers.hpp"

@@ -9,7 +9,7 @@
 #include "slipfront/error.hpp"
 #include "slipfront/theory/modulation/modulation.hpp"
 #include "theory/modulation/equations.hpp"
-#include "theory/modulation/solve_states.hpp"
+#include "theory/modulation/modulation.hpp"
 
 namespace slipfront::plane {
 

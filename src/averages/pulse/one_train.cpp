@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "averages/pulse/checks/checks.hpp"
-#include "averages/pulse/contours/along.hpp"
-#include "averages/pulse/grid/ends.hpp"
+#include "averages/pulse/contours/sweep.hpp"
+#include "averages/pulse/grid/layout.hpp"
 #include "averages/pulse/observe/observe.hpp"
 #include "math/constants.hpp"
 #include "math/digits.hpp"

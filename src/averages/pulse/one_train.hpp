@@ -10,7 +10,6 @@
 #include "averages/pulse/checks/checks.hpp"
 #include "averages/pulse/contours/many_trains.hpp"
 #include "averages/pulse/motion.hpp"
-#include "averages/pulse/observe/fronts.hpp"
 #include "averages/pulse/observe/observe.hpp"
 #include "averages/pulse/solver.hpp"
 

@@ -1,8 +1,11 @@
 #pragma once
 /// \file
 /// The geometry, rock and slip of a finite-fault model, subfault by subfault, for files that describe a source.
+///
+/// Rows and columns of the subfaults of a segment, whatever the format of their file.
 
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -76,5 +79,16 @@ double share_moment(FaultModel& model);
 
 /// The layer at a depth in m. Above the first layer it is the first. `rock` must not be empty.
 const RockLayer& rock_at(const std::vector<RockLayer>& rock, double depth);
+
+inline constexpr double least_gap = 10;  // m; depths that differ by less are one row, because files round positions
+
+inline double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// Sorts the subfaults into rows of equal depth, and each row in the direction of strike. Returns the number of rows,
+/// or 0 if the rows have different lengths.
+std::size_t sort_into_rows(std::vector<FaultPatch>& patches, double strike);
+
+/// Moves positions from the upper edges of subfaults to their centres.
+void move_to_centres(FaultSegment& segment);
 
 }  // namespace slipfront::catalogue

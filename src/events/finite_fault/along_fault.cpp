@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "events/finite_fault/on_plane.hpp"
-#include "events/finite_fault/sources.hpp"
 #include "math/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/theory/medium/constants.hpp"

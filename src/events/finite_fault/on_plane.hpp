@@ -2,12 +2,17 @@
 /// \file
 /// The slip of a finite-fault model as the initial state of a rupture on a plane, and one side of its hypocentre, where
 /// a load holds the stress until the pulse comes.
+///
+/// The columns of a finite-fault model along strike, and several sources of one earthquake, with what to say where they
+/// disagree (docs/events.md).
 
 #include <string>
 #include <vector>
 
 #include "averages/pulse/solver.hpp"
+#include "events/finite_fault/along_fault.hpp"
 #include "events/finite_fault/source/source.hpp"
+#include "slipfront/events/inference/estimate.hpp"
 
 namespace slipfront::finite_fault {
 
@@ -60,5 +65,29 @@ std::vector<std::vector<double>> slip_to_come(const OnPlane& fault, double margi
 
 /// Moment rate of a source on a grid of times that begins at 0, in N m / s.
 std::vector<double> moment_rate(const FiniteSource& source, double interval, std::size_t count);
+
+/// A column: the subfaults at one position along strike.
+struct FaultColumn {
+  double x;             ///< m along strike, from the hypocentre
+  double slip;          ///< m, mean over depth, >= 0
+  double rupture_time;  ///< s since the rupture began, at the first subfault that slips; NaN if none does
+};
+
+struct FaultColumns {
+  std::vector<FaultColumn> columns;  ///< ascending in x; empty if there is a `reason`
+  double end = 0;                    ///< s since the rupture began, when the last subfault has slipped (TRUP + RISE)
+  std::string reason;                ///< one line that states why there are no columns
+};
+
+/// The columns of the segment on which the rupture begins. The hypocentre is the position of the earliest rupture
+/// times. Rupture times of subfaults that slip less than 5 % of the largest slip are ignored.
+FaultColumns columns_of(const std::vector<LocalState>& states);
+
+/// Sources disagree where the largest stress in Pa, or bound of it, is more than this many times the smallest.
+inline constexpr double most_disagreement = 2;
+
+/// Adds a warning to each entry where sources of its earthquake disagree. Two entries are one earthquake if they have
+/// the same day and the same first word in their names; where only the year is known, the same year and the same name.
+void warn_of_other_sources(std::vector<catalogue::Entry>& entries, const medium::Defaults& defaults);
 
 }  // namespace slipfront::finite_fault

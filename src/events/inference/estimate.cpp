@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "events/inference/sampling/pulse_state.hpp"
+#include "events/inference/sampling/proposal.hpp"
 #include "math/digits.hpp"
 #include "slipfront/theory/medium/constants.hpp"
 #include "slipfront/theory/medium/medium.hpp"

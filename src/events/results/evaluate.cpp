@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "events/catalogue/keys.hpp"
+#include "events/inference/sampling/proposal.hpp"
 #include "events/inference/sampling/sampler.hpp"
-#include "events/inference/sampling/sobol.hpp"
 #include "events/results/columns.hpp"
 #include "math/digits.hpp"
 #include "slipfront/error.hpp"

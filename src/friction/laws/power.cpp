@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "friction/train_means/tabulated_average.hpp"
+#include "friction/train_means/mean_over_train.hpp"
 #include "math/interpolation.hpp"
 #include "math/simd/elementary.hpp"
 #include "math/simd/vector_code.hpp"

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "friction/train_means/chebyshev.hpp"
-#include "friction/train_means/tabulated_average.hpp"
+#include "friction/train_means/mean_over_train.hpp"
 #include "math/simd/elementary.hpp"
 #include "math/simd/vector_code.hpp"
 #include "slipfront/error.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "lattice/chain/event_outputs.hpp"
+#include "lattice/chain/events/event_log.hpp"
 #include "lattice/chain/run_checks.hpp"
 #include "lattice/chain/run_observer.hpp"
 #include "lattice/chain/scaled_start.hpp"

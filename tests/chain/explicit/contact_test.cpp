@@ -8,7 +8,6 @@
 
 #include "exact_chains.hpp"
 #include "lattice/chain/explicit/explicit_chain.hpp"
-#include "lattice/chain/explicit/levels/contact_force.hpp"
 #include "lattice/chain/explicit/levels/kernel.hpp"
 
 namespace {

@@ -3,47 +3,91 @@
 #include <cmath>
 #include <vector>
 
-#include "lattice/chain/explicit/levels/contact_force.hpp"
 #include "lattice/chain/explicit/levels/kernel.hpp"
 #include "lattice/chain/explicit/levels/scheme.hpp"
-#include "lattice/chain/implicit/watched_parts.hpp"
+#include "lattice/chain/implicit/implicit_chain.hpp"
 
 namespace {
 
 namespace chains = slipfront::chain;
 
-/// Sums over blocks of any size are those of their definitions: all sites count, also those that do not fill a vector.
-TEST(ChainKernels, SumOverAllSitesOfTheirBlocks) {
-  const std::size_t begins[] = {5, 6, 14, 31, 71};
-  std::vector<double> a, b;
-  for (int j = 0; j < 66; ++j) {
-    a.push_back((j % 2 == 0 ? 1 : -1) * std::sqrt(j + 1.0));
-    b.push_back(std::cos(0.3 * j));
+constexpr std::size_t begins[] = {8, 16, 32, 40, 75}, blocks = 4, sites = 67, room = 72;
+
+/// What the sum of each block should be: all its sites count, also those that do not fill a vector, and the sites at
+/// the ends of a chain by half.
+template <class Term>
+void expect_sums(const std::vector<double>& sums, const Term& term, double tolerance) {
+  for (std::size_t i = 0; i < blocks; ++i) {
+    double sum = 0;
+    for (std::size_t j = begins[i] - 8; j < begins[i + 1] - 8; ++j)
+      sum += j == 0 || j + 1 == sites ? term(j) / 2 : term(j);
+    for (std::size_t k = 0; k < chains::lanes; ++k) sum -= sums[chains::lanes * i + k];
+    EXPECT_NEAR(sum, 0, tolerance) << i;
   }
-  std::vector<double> values(4 * chains::lanes), absolutes(values), products(values), squares(values);
-  chains::add_values({begins, 4, values.data(), chains::lanes}, 2, a.data());
-  chains::add_absolutes({begins, 4, absolutes.data(), chains::lanes}, 3, a.data());
-  chains::add_products({begins, 4, products.data(), chains::lanes}, 0.5, a.data(), b.data());
-  chains::add_squares({begins, 4, squares.data(), chains::lanes}, 1.5, a.data(), b.data());
-  for (std::size_t i = 0; i < 4; ++i) {
-    double sum = 0, sum_of_absolutes = 0, sum_of_products = 0, sum_of_squares = 0;
-    for (std::size_t j = begins[i] - 5; j < begins[i + 1] - 5; ++j) {
-      sum += 2 * a[j];
-      sum_of_absolutes += 3 * std::fabs(a[j]);
-      sum_of_products += 0.5 * a[j] * b[j];
-      // the integral over a step of the square of a rate that is linear in time
-      sum_of_squares += 1.5 * (a[j] * a[j] + (a[j] - b[j]) * (a[j] - b[j]) / 12);
+}
+
+struct SomeSums {
+  std::vector<double> sums = std::vector<double>(blocks * chains::lanes);
+  chains::BlockSums to{begins, blocks, sums.data(), chains::lanes, 0, true, true};
+};
+
+TEST(ChainKernels, SumOverAllSitesOfTheirBlocks) {
+  std::vector<double> a(room), b(room), c(room);
+  for (std::size_t j = 0; j < room; ++j) {
+    const auto x = static_cast<double>(j);
+    a[j] = (j % 2 == 0 ? 1 : -1) * std::sqrt(x + 1);
+    b[j] = std::cos(0.3 * x);
+    c[j] = std::exp(-0.1 * x);
+  }
+  SomeSums values, products, works;
+  chains::add_values(values.to, 2, a.data());
+  expect_sums(
+      values.sums, [&](std::size_t j) { return 2 * a[j]; }, 1e-12);
+  chains::add_products(products.to, 0.5, a.data(), b.data());
+  expect_sums(
+      products.sums, [&](std::size_t j) { return 0.5 * a[j] * b[j]; }, 1e-12);
+  // Six terms, as a force that is the sum of six.
+  const chains::ForceTerms F{.count = 6, .X = {a.data(), b.data(), c.data(), c.data(), b.data(), a.data()}};
+  const chains::ForceTerms::Weights of_D{1, 2, 3, 4, 5, 6}, of_B{0.3, -0.2, 0.1, 0.2, 0.4, -0.5};
+  chains::add_works(works.to, 2, F, of_D, of_B, b.data(), c.data());
+  expect_sums(
+      works.sums,
+      [&](std::size_t j) {
+        const double now = 7 * a[j] + 7 * b[j] + 7 * c[j], rate = -0.2 * a[j] + 0.2 * b[j] + 0.3 * c[j];
+        return 2 * (now * b[j] + rate * (b[j] - c[j]));
+      },
+      1e-12);
+}
+
+/// The squares are the integrals of the square of a rate that is linear in time over each step.
+TEST(ChainKernels, MeasureStepsOfAllSites) {
+  const auto u_at = [](std::size_t j, int level) { return std::sin(0.1 * static_cast<double>(j) + 0.7 * level); };
+  const auto D_at = [&](std::size_t j, int level) { return u_at(j, level) - u_at(j, level - 1); };
+  for (const auto what : {chains::Measured::absolutes, chains::Measured::squares}) {
+    SomeSums measured;
+    std::vector<double> u(room), D(room), next(room);
+    for (std::size_t j = 0; j < room; ++j) {
+      u[j] = u_at(j, 0);
+      D[j] = D_at(j, 0);
     }
-    for (std::size_t k = 0; k < chains::lanes; ++k) {
-      sum -= values[chains::lanes * i + k];
-      sum_of_absolutes -= absolutes[chains::lanes * i + k];
-      sum_of_products -= products[chains::lanes * i + k];
-      sum_of_squares -= squares[chains::lanes * i + k];
+    const bool squares = what == chains::Measured::squares;
+    const double factor = 1.5;
+    for (int level = 1; level < 4; ++level) {
+      for (std::size_t j = 0; j < room; ++j) next[j] = u_at(j, level);
+      chains::measure_step({what, 0, u.data(), D.data(), D.data(), measured.to, factor}, next.data(), sites);
+      EXPECT_EQ(u[5], next[5]);
     }
-    EXPECT_NEAR(sum, 0, 1e-12) << i;
-    EXPECT_NEAR(sum_of_absolutes, 0, 1e-12) << i;
-    EXPECT_NEAR(sum_of_products, 0, 1e-12) << i;
-    EXPECT_NEAR(sum_of_squares, 0, 1e-11) << i;
+    expect_sums(
+        measured.sums,
+        [&](std::size_t j) {
+          double sum = 0;
+          for (int level = 1; level < 4; ++level) {
+            const double step = D_at(j, level), B = step - D_at(j, level - 1);
+            sum += squares ? step * step + B * B / 12 : std::fabs(step);
+          }
+          return factor * sum;
+        },
+        1e-12);
   }
 }
 
@@ -60,18 +104,14 @@ TEST(ChainKernels, RejectLevelsOutsideTheRangeOfTheForce) {
   }
 }
 
-TEST(ChainKernels, WorkAndEnergyOfASite) {
+TEST(ChainKernels, EnergyOfAContactThatChanges) {
   const double two_pi = 2 * std::acos(-1.0);
   const chains::PeriodicForce sine = chains::substrate_force(0);
-  const std::vector<double> before{0.3, -1}, now{1.2, 0.1}, next{-0.4, 0.7}, D{0.3, -0.2}, B{0.2, 0.1};
-  const std::vector<double> a2{0.5, 0.3}, a2_next{0.6, 0.2}, u{0.37, -2.2};
-  double work[2], energy[2];
-  chains::works_of_force(before.data(), now.data(), next.data(), D.data(), B.data(), work, 2);
+  const std::vector<double> D{0.3, -0.2}, a2{0.5, 0.3}, a2_next{0.6, 0.2}, u{0.37, -2.2};
+  double energy[2];
   chains::energies_of_contacts(sine, a2.data(), a2_next.data(), u.data(), D.data(), energy, 2);
   for (std::size_t j = 0; j < 2; ++j) {
-    // Simpson's rule, with the force over the step as a parabola in time.
-    EXPECT_NEAR(work[j], (now[j] + next[j]) / 2 * D[j] + (next[j] - before[j]) / 12 * B[j], 1e-15);
-    const double cosines = std::cos(two_pi * u[j]) + std::cos(two_pi * u[j] - D[j]);
+    const double cosines = std::cos(two_pi * u[j]) + std::cos(two_pi * (u[j] - D[j]));
     EXPECT_NEAR(energy[j], (a2_next[j] - a2[j]) * (1 - cosines / 2), 1e-10);
   }
 }

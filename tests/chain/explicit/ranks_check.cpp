@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "lattice/chain/explicit/contact_field.hpp"
 #include "lattice/chain/explicit/explicit_chain.hpp"
-#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/forces.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
 #include "lattice/chain/implicit/implicit_chain.hpp"
 #include "lattice/chain/model/initial_train.hpp"
 #include "lattice/chain/observe/averages.hpp"

@@ -2,7 +2,7 @@
 /// The writer of toml++ needs the streams of the C++ library, which are a tenth of the download. The page writes no
 /// scenario, and of an event only its date.
 
-#include "text/toml_text.hpp"
+#include "text/toml.hpp"
 
 namespace slipfront {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "averages/pulse/contours/along.hpp"
 #include "averages/pulse/contours/contour.hpp"
+#include "averages/pulse/contours/sweep.hpp"
 #include "math/digits.hpp"
 #include "slipfront/error.hpp"
 

@@ -7,7 +7,7 @@
 #include "math/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/theory/modulation/modulation.hpp"
-#include "theory/modulation/solve_states.hpp"
+#include "theory/modulation/modulation.hpp"
 
 namespace slipfront::pulse {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "averages/pulse/grid/cells.hpp"
-#include "averages/pulse/grid/ends.hpp"
+#include "averages/pulse/grid/layout.hpp"
 #include "slipfront/averages/pulse/problem.hpp"
 #include "slipfront/friction/friction.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "averages/pulse/grid/ends.hpp"
+#include "averages/pulse/grid/layout.hpp"
 #include "averages/pulse/time/integrators.hpp"
 #include "math/digits.hpp"
 

@@ -6,8 +6,7 @@
 
 #include "averages/pulse/grid/cells.hpp"
 #include "averages/pulse/staggered/staggered.hpp"
-#include "averages/pulse/steps/explicit_steps.hpp"
-#include "averages/pulse/steps/implicit_steps.hpp"
+#include "averages/pulse/steps/schemes.hpp"
 
 namespace slipfront::pulse {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "events/catalogue/fault_geometry.hpp"
-#include "events/catalogue/subfaults/columns.hpp"
+#include "events/catalogue/fault_model.hpp"
+#include "events/catalogue/subfaults/subfaults.hpp"
 #include "text/characters.hpp"
 
 /// \file

@@ -3,7 +3,7 @@
 #include <map>
 #include <tuple>
 
-#include "events/catalogue/fault_geometry.hpp"
+#include "events/catalogue/fault_model.hpp"
 #include "events/catalogue/subfaults/subfaults.hpp"
 #include "math/digits.hpp"
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "events/catalogue/fault_geometry.hpp"
+#include "events/catalogue/fault_model.hpp"
 #include "events/catalogue/format.hpp"
 #include "events/catalogue/fsp/fsp.hpp"
-#include "events/catalogue/subfaults/columns.hpp"
+#include "events/catalogue/subfaults/subfaults.hpp"
 #include "text/characters.hpp"
 
 /// \file

@@ -3,7 +3,7 @@
 
 #include "events/catalogue/format.hpp"
 #include "events/catalogue/fsp/fsp.hpp"
-#include "events/catalogue/subfaults/columns.hpp"
+#include "events/catalogue/subfaults/subfaults.hpp"
 #include "text/characters.hpp"
 
 /// \file

@@ -10,8 +10,7 @@
 #include "math/digits.hpp"
 #include "slipfront/events/catalogue/read.hpp"
 #include "text/characters.hpp"
-#include "text/parse_toml.hpp"
-#include "text/toml_text.hpp"
+#include "text/toml.hpp"
 
 namespace slipfront::catalogue {
 namespace {

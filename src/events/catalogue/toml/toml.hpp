@@ -3,7 +3,7 @@
 #include <string>
 
 #include "events/catalogue/keys.hpp"
-#include "text/parse_toml.hpp"
+#include "text/toml.hpp"
 
 namespace slipfront::catalogue {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "events/inference/sampling/pulse_state.hpp"
+#include "events/inference/sampling/proposal.hpp"
 #include "slipfront/events/catalogue/measured.hpp"
 #include "slipfront/theory/medium/constants.hpp"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "events/inference/sampling/sobol.hpp"
+#include "events/inference/sampling/proposal.hpp"
 #include "math/roots.hpp"
 #include "slipfront/theory/medium/medium.hpp"
 

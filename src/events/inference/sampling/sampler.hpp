@@ -6,8 +6,7 @@
 #include <string_view>
 
 #include "events/inference/sampling/evidence.hpp"
-#include "events/inference/sampling/pulse_state.hpp"
-#include "events/inference/sampling/sobol.hpp"
+#include "events/inference/sampling/proposal.hpp"
 #include "slipfront/events/inference/posterior.hpp"
 
 namespace slipfront::inference {

@@ -165,8 +165,7 @@ void compute_next(const Forces& forces, Displaced& d) {
                    .before = d.old.data(),
                    .now = d.now.data(),
                    .next = d.next.data(),
-                   .y = y.data(),
-                   .F = forces.F(d.low - static_cast<long>(lanes))};
+                   .y = y.data()};
   if (!coefficients.empty()) {
     forces.contact_coefficients(sites.offset, lanes, lanes + (d.wide + lanes - 1) / lanes * lanes, coefficients.data());
     sites.coefficients = coefficients.data();

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
 #include "lattice/chain/explicit/share.hpp"
 #include "slipfront/lattice/chain/chain.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "lattice/chain/explicit/forces.hpp"
-#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
 #include "lattice/chain/explicit/levels/scheme.hpp"
 #include "lattice/chain/model/initial_train.hpp"
 

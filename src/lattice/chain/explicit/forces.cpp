@@ -9,6 +9,7 @@
 
 #include "lattice/chain/explicit/levels/kernel.hpp"
 #include "math/constants.hpp"
+#include "math/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {
@@ -23,29 +24,86 @@ double node(std::size_t i, std::size_t n) {
 
 }  // namespace
 
-void ForcingInTime::at(long level, const Ranks& ranks, std::vector<double>& F) {
-  if (level < begin_ || level >= end_) choose(level, ranks);
+void ForcingInTime::at(long level, const Ranks& ranks) {
+  if (level + 1 < begin_ || level + 1 >= end_) choose(level + 1, ranks);
+  weights_.clear();
   if (!polynomial_) {
-    for (std::size_t j = 0; j < F.size(); ++j) F[j] = formula(j, static_cast<double>(level));
+    call_formula(level);
+    for (std::size_t i = 0; i < 3; ++i) {
+      weights_.emplace_back();
+      weights_.back()[i] = 1;
+    }
     return;
   }
-  interpolate(level, 0, F.size(), F.data());
+  for (long l = level - 1; l < std::min(end_, level + static_cast<long>(halo) + 1); ++l)
+    weights_.push_back(of_terms(static_cast<double>(l)));
+  if (level > 0) return;
+  for (std::size_t s = 0; s < terms_.size(); ++s)
+    weights_[0][s] = 3 * weights_[1][s] - 3 * weights_[2][s] + weights_[3][s];
 }
 
-void ForcingInTime::interpolate(long level, std::size_t first, std::size_t size, double* F) const {
-  std::array<const double*, nodes> values;
-  for (std::size_t i = 0; i < nodes; ++i) values[i] = values_[i].data() + first;
-  weighted_sum(weights(static_cast<double>(level)), values, F, size);
+/// F at three levels. Two of them are known from a call for the level before.
+void ForcingInTime::call_formula(long level) {
+  resize_terms(3);
+  const auto call = [&](std::size_t i, long at) {
+    double* const F = terms_[i].data();
+    for (std::size_t j = 0; j < x_.size(); ++j) F[j] = formula(j, static_cast<double>(at));
+  };
+  if (called_ == level - 1 && level > 0) {
+    std::swap(terms_[0], terms_[1]);
+    std::swap(terms_[1], terms_[2]);
+  } else {
+    call(0, level == 0 ? 2 : level - 1);
+    call(1, level);
+  }
+  call(2, level + 1);
+  double *const before = terms_[0].data(), *const now = terms_[1].data(), *const next = terms_[2].data();
+  for (std::size_t j = 0; level == 0 && j < x_.size(); ++j) before[j] += 3 * now[j] - 3 * next[j];
+  called_ = level;
+  find_sums_beside();
+}
+
+void ForcingInTime::resize_terms(std::size_t count) {
+  for (auto* arrays : {&terms_, &beside_}) {
+    while (arrays->size() < count) arrays->emplace_back(x_.size());
+    arrays->resize(count);
+  }
+}
+
+void ForcingInTime::find_sums_beside() {
+  for (std::size_t s = 0; s < terms_.size(); ++s) {
+    const double* const X = terms_[s].data();
+    double* const sums = beside_[s].data();
+    for (std::size_t j = 1; j + 1 < x_.size(); ++j) sums[j] = X[j - 1] + X[j + 1];
+  }
+}
+
+ForceTerms ForcingInTime::terms(std::size_t site) const {
+  ForceTerms F{.count = terms_.size()};
+  for (std::size_t s = 0; s < F.count; ++s) {
+    F.X[s] = terms_[s].data() + site;
+    F.beside[s] = beside_[s].data() + site;
+  }
+  return F;
+}
+
+double ForcingInTime::operator()(std::size_t site, long levels_after) const {
+  double sum = 0;
+  for (std::size_t s = 0; s < terms_.size(); ++s) sum += weights(levels_after)[s] * terms_[s].data()[site];
+  return sum;
+}
+
+double ForcingInTime::time_of(std::size_t i) const {
+  const auto from = static_cast<double>(std::max(begin_ - 2, 0L)), end = static_cast<double>(end_);
+  return 0.5 * (from + end) + 0.5 * (end - from) * node(i, nodes);
 }
 
 /// The weights of the values at the nodes in the value at a level, by the barycentric formula.
-std::array<double, ForcingInTime::nodes> ForcingInTime::weights(double level) const {
-  const double middle = 0.5 * static_cast<double>(begin_ + end_), half = 0.5 * static_cast<double>(end_ - begin_);
-  const double s = (level - middle) / half;
-  std::array<double, nodes> weight{};
+ForcingInTime::NodeWeights ForcingInTime::of_nodes(double level) const {
+  NodeWeights weight{};
   double sum = 0;
   for (std::size_t i = 0; i < nodes; ++i) {
-    const double away = s - node(i, nodes);
+    const double away = level - time_of(i);
     if (away == 0) {
       weight.fill(0);
       weight[i] = 1;
@@ -59,32 +117,76 @@ std::array<double, ForcingInTime::nodes> ForcingInTime::weights(double level) co
   return weight;
 }
 
+ForceTerms::Weights ForcingInTime::of_terms(double level) const {
+  const NodeWeights nodes_at_level = of_nodes(level);
+  ForceTerms::Weights weight{};
+  for (std::size_t s = 0; s < terms_.size(); ++s)
+    for (std::size_t i = 0; i < nodes; ++i) weight[s] += nodes_of_terms_[s][i] * nodes_at_level[i];
+  return weight;
+}
+
 /// Takes the longest polynomial that is right. Its levels begin at a multiple of their number, whatever came before.
 void ForcingInTime::choose(long level, const Ranks& ranks) {
   for (long levels = longest; levels >= shortest; levels /= 2) {
     begin_ = level / levels * levels;
     end_ = begin_ + levels;
-    polynomial_ = fits(ranks);
-    if (polynomial_) return;
+    polynomial_ = fits(ranks) && decompose(ranks);
+    if (polynomial_) return find_sums_beside();
+  }
+}
+
+/// Writes the values at the nodes as a sum of weights times terms, by LU decomposition with complete pivoting. All
+/// ranks take the same pivots: the first of the largest numbers, site by site.
+bool ForcingInTime::decompose(const Ranks& ranks) {
+  constexpr std::size_t columns = nodes + 1;
+  resize_terms(0);
+  called_ = -1;
+  nodes_of_terms_.clear();
+  for (;;) {
+    std::vector<double> mine(columns);  // the largest number of this rank, and the values at its site
+    for (std::size_t j = 0; j < x_.size(); ++j) {
+      double most = mine[nodes];
+      for (const auto& row : values_) most = std::max(most, std::fabs(row[j]));
+      if (most == mine[nodes]) continue;
+      mine[nodes] = most;
+      for (std::size_t i = 0; i < nodes; ++i) mine[i] = values_[i][j];
+    }
+    const std::vector<double> all = ranks.joined(mine);
+    std::size_t best = 0;
+    for (std::size_t r = 1; r * columns < all.size(); ++r)
+      if (all[r * columns + nodes] > all[best * columns + nodes]) best = r;
+    const std::span<const double> column(all.data() + best * columns, nodes);
+    if (!(all[best * columns + nodes] > tolerance / 4 * most_)) return true;
+    if (terms_.size() == ForceTerms::most) return false;
+    std::size_t pivot = 0;
+    for (std::size_t i = 1; i < nodes; ++i)
+      if (std::fabs(column[i]) > std::fabs(column[pivot])) pivot = i;
+    resize_terms(terms_.size() + 1);
+    double* const term = terms_.back().data();
+    std::copy(values_[pivot].begin(), values_[pivot].end(), term);
+    NodeWeights& of_nodes = nodes_of_terms_.emplace_back();
+    for (std::size_t i = 0; i < nodes; ++i) {
+      of_nodes[i] = column[i] / column[pivot];
+      for (std::size_t j = 0; j < x_.size(); ++j) values_[i][j] -= of_nodes[i] * term[j];
+    }
   }
 }
 
 void ForcingInTime::fill(std::size_t stride) {
-  const double middle = 0.5 * static_cast<double>(begin_ + end_), half = 0.5 * static_cast<double>(end_ - begin_);
   for (std::size_t i = 0; i < nodes; ++i) {
     values_[i].resize(x_.size());
     for (std::size_t j = 0; j < x_.size(); j += stride) {
-      values_[i][j] = formula(j, middle + half * node(i, nodes));
-      most_ = std::fmax(most_, std::fabs(values_[i][j]));
+      values_[i][j] = formula(j, time_of(i));
+      most_ = std::max(most_, std::fabs(values_[i][j]));
     }
   }
 }
 
 /// The largest difference from the formula at a level, at every 256th site from `first` on.
 double ForcingInTime::largest_error(long level, std::size_t first) const {
-  const auto weight = weights(static_cast<double>(level));
+  const auto weight = of_nodes(static_cast<double>(level));
   double most = 0;
-  for (std::size_t j = first; j < x_.size(); j += apart) {
+  for (std::size_t j = first; j < x_.size(); j += apart()) {
     double sum = 0;
     for (std::size_t i = 0; i < nodes; ++i) sum += weight[i] * values_[i][j];
     const double error = std::fabs(sum - formula(j, static_cast<double>(level)));
@@ -111,7 +213,7 @@ bool ForcingInTime::fits(const Ranks& ranks) {
   };
   most_ = 0;
   const double at_first_sites = error_of([&] {  // a few calls refuse most polynomials that are too long
-    fill(apart);
+    fill(apart());
     return largest_error(begin_ + 1, 0);
   });
   most_ = most_of_all(most_);
@@ -124,7 +226,7 @@ bool ForcingInTime::fits(const Ranks& ranks) {
   const double error = error_of([&] {
     double most = at_nodes;
     for (long level = begin_; level < end_ && most <= tolerance * most_; ++level)
-      most = std::fmax(most, largest_error(level, static_cast<std::size_t>(level) * 29 % apart));
+      most = std::fmax(most, largest_error(level, static_cast<std::size_t>(level) * 29 % apart()));
     return most;
   });
   return most_of_all(error) <= tolerance * most_;
@@ -161,44 +263,24 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, const Ranks& ranks,
       variables_(problem.friction.state_size()),
       state_(variables_ * at(last_)),
       a2_(a2_of(problem_, first_, last_)),
-      contacts_(problem_, first_, a2_) {
+      contacts_(problem_, first_, a2_),
+      steady_(!problem.forcing || problem.steady_forcing) {
   for (long j = first_; variables_ > 0 && j < last_; ++j)
     problem_.friction.start(problem_.grid.x(folded(problem_, j)), 0, {state_of(j), variables_});
   if (!problem_.forcing) return;
-  F_now_.resize(at(last_));
   std::vector<double> x;
   for (long j = first_; j < last_; ++j) x.push_back(problem_.grid.x(folded(problem_, j)));
-  if (problem_.steady_forcing) {
-    for (std::size_t j = 0; j < x.size(); ++j) F_now_[j] = problem_.forcing(x[j], 0);
-    steady_drive_.resize(at(last_));
-    const double* F = F_now_.data() + 1;
-    add_drive(drive_rule(), F, F, F, steady_drive_.data() + 1, at(last_) - 2);
+  if (!steady_) {
+    forcing_ = ForcingInTime(problem_.forcing, std::move(x), dt_);
+    forcing_.at(level_, ranks);
     return;
   }
-  forcing_ = ForcingInTime(problem_.forcing, std::move(x), dt_);
-  F_before_ = F_next_ = F_now_;
-  evaluate_forcing(level_ - 1, ranks, F_before_);
-  evaluate_forcing(level_, ranks, F_now_);
-  evaluate_forcing(level_ + 1, ranks, F_next_);
-}
-
-DriveRule Forces::drive_rule() const {
-  const double strength = scheme_.force / turn;
-  return {strength * scheme_.share_next, strength * scheme_.share_before, strength * scheme_.share_now,
-          strength * scheme_.share_neighbour};
-}
-
-void Forces::evaluate_forcing(long level, const Ranks& ranks, std::vector<double>& F) {
-  if (level >= 0) {
-    forcing_.at(level, ranks, F);
-    return;
-  }
-  // F need not be defined before the start, so we extrapolate.
-  std::vector<double> zero = F, one = F, two = F;
-  forcing_.at(0, ranks, zero);
-  forcing_.at(1, ranks, one);
-  forcing_.at(2, ranks, two);
-  for (std::size_t j = 0; j < F.size(); ++j) F[j] = 3 * zero[j] - 3 * one[j] + two[j];
+  for (const double at : x) steady_F_.push_back(problem_.forcing(at, 0));
+  steady_drive_.resize(at(last_));
+  const double all = scheme_.share_next + scheme_.share_before + scheme_.share_now, strength = scheme_.force / turn;
+  for (std::size_t j = 1; j + 1 < at(last_); ++j)
+    steady_drive_[j] =
+        strength * (all * steady_F_[j] + scheme_.share_neighbour * (steady_F_[j - 1] + steady_F_[j + 1]));
 }
 
 void Forces::age(long first, std::size_t size, const double* now, const double* next, double* states) {
@@ -253,15 +335,8 @@ void Forces::exchange_all(const Ranks& ranks) {
 
 void Forces::proceed(std::size_t levels, const Ranks& ranks) {
   if (contacts_.acts()) contacts_.proceed();
-  if (!steady() && levels == 1) {
-    F_before_.swap(F_now_);
-    F_now_.swap(F_next_);
-  } else if (!steady()) {
-    find_later_F(levels - 1, first_, F_before_.size(), F_before_.data());
-    find_later_F(levels, first_, F_now_.size(), F_now_.data());
-  }
   level_ += static_cast<long>(levels);
-  if (!steady()) evaluate_forcing(level_ + 1, ranks, F_next_);
+  if (!steady_) forcing_.at(level_, ranks);
 }
 
 void Forces::contact_coefficients(long offset, std::size_t begin, std::size_t end, double* coefficients) const {
@@ -290,16 +365,29 @@ void Forces::begin_level(const EndConditions& ends, const LevelSites& s, Outflow
 void Forces::add_load_and_friction(const EndConditions& ends, const LevelSites& s) const {
   const auto given = [](EndCondition side) { return side == EndCondition::fixed || side == EndCondition::absorbing; };
   const std::size_t from = given(ends.left) ? s.left + 1 : s.left, to = given(ends.right) ? s.right - 1 : s.right;
-  if (!F_now_.empty()) {
-    const long first = s.offset + static_cast<long>(from);
-    if (steady())
-      add_steady_drive(steady_drive_.data() + at(first), s.next + from, to - from);
-    else
-      add_drive(drive_rule(), s.F.before + from, s.F.now + from, s.F.next + from, s.next + from, to - from);
+  if (problem_.forcing) {  // whole vectors, where sites of neighbours may be passed
+    const std::size_t first = is_end(ends.left) ? from : from / lanes * lanes;
+    add_load(s, first, is_end(ends.right) ? to : (to + lanes - 1) / lanes * lanes);
   }
   if (!nonlinear_) return;
   if (s.applied != nullptr) s.applied[s.left] = s.applied[s.right - 1] = 0;  // ends that are given have none
   add_friction(s, from, to);
+}
+
+void Forces::add_load(const LevelSites& s, std::size_t begin, std::size_t end) const {
+  const long first = s.offset + static_cast<long>(begin);
+  if (steady_) {
+    add_steady_drive(steady_drive_.data() + at(first), s.next + begin, end - begin);
+    return;
+  }
+  const double strength = scheme_.force / turn;
+  const auto &before = weights(s.ahead - 1), &now = weights(s.ahead), &next = weights(s.ahead + 1);
+  ForceTerms::Weights own{}, beside{};
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    own[i] = strength * (scheme_.share_next * next[i] + scheme_.share_before * before[i] + scheme_.share_now * now[i]);
+    beside[i] = strength * scheme_.share_neighbour * now[i];
+  }
+  add_drive(terms(first), own, beside, s.next + begin, end - begin);
 }
 
 void Forces::add_friction(const LevelSites& s, std::size_t begin, std::size_t end) const {
@@ -329,6 +417,123 @@ void Forces::add_friction(const LevelSites& s, std::size_t begin, std::size_t en
       f.loops().speeds_after(some, free, weight, states, speed);
     take_speeds(turn / time, 1 / weight, from, free, speed, s.next + j, force, some);
   }
+}
+
+std::size_t folded(const Problem& p, long j) {
+  const long n = static_cast<long>(p.grid.sites);
+  if (p.boundary.periodic) return static_cast<std::size_t>((j % n + n) % n);
+  while (j < 0 || j >= n) j = j < 0 ? -j : 2 * (n - 1) - j;
+  return static_cast<std::size_t>(j);
+}
+
+void fill_margins(const Problem& p, const Ranks& ranks, long first, std::size_t columns, std::vector<double>& values) {
+  const long n = static_cast<long>(p.grid.sites), last = first + static_cast<long>(values.size() / columns);
+  if (ranks.size() > 1) {  // each rank has more sites than a margin
+    const std::span<double> all(values);
+    const std::size_t room = columns * margin;
+    ranks.exchange(all.subspan(room, room), all.subspan(all.size() - 2 * room, room), all.first(room), all.last(room),
+                   p.boundary.periodic);
+    if (p.boundary.periodic) return;
+  }
+  const auto site = [&](long j) { return values.begin() + (j - first) * static_cast<long>(columns); };
+  const auto copy = [&](long j) { std::copy_n(site(static_cast<long>(folded(p, j))), columns, site(j)); };
+  for (long j = first; j < 0; ++j) copy(j);
+  for (long j = n; j < last; ++j) copy(j);
+}
+
+std::vector<std::string> state_names(const Problem& p) {
+  std::vector<std::string> names = p.friction.state_names();
+  if (p.friction.changes_contacts()) names.insert(names.end(), {"excess_pressure", "earlier_contact"});
+  return names;
+}
+
+ContactField::ContactField(const Problem& p, long first, const std::vector<double>& a2)
+    : problem_(&p), contacts_(p.friction.contacts()), first_(first) {
+  if (!acts()) return;
+  before_ = now_ = next_ = a2;
+  const double most = largest_contact(p);
+  limit_ = most * most;
+  excess_.assign(a2.size(), 0);
+  share_.assign(a2.size(), 1);
+  // We compute the contacts at t = 0 from the state, with the same operations as later. A resumed run has only the
+  // state to compute them from, and must get the same bits.
+  std::vector<double> theta(a2.size()), state(p.friction.state_size());
+  for (std::size_t i = 0; i < a2.size(); ++i) {
+    p.friction.start(p.grid.x(folded(p, first_ + static_cast<long>(i))), 0, state);
+    theta[i] = state[0];
+    const friction::Contacts contacts = p.friction.contacts_at(state);
+    if (p.friction.contacts_vary()) at_.push_back(contacts);
+    base_.push_back(a2[i] / contacts.strength(theta[i], 0));
+  }
+  advance(first_, 0, theta, theta);
+  before_ = now_ = next_;
+}
+
+void ContactField::advance(long first, double time, std::span<const double> theta_before,
+                           std::span<const double> theta) {
+  const std::size_t size = theta.size(), from = at(first);
+  double* const a2 = next_.data() + from;
+  if (at_.empty()) contacts_.advance(size, time, theta_before.data(), theta.data(), excess_.data() + from, a2);
+  for (std::size_t i = 0; i < size; ++i) {
+    const friction::Contacts& contacts = at_.empty() ? contacts_ : at_[from + i];
+    if (!at_.empty()) contacts.advance(1, time, &theta_before[i], &theta[i], &excess_[from + i], &a2[i]);
+    a2[i] *= base_[from + i];
+    share_[from + i] = contacts.share(excess_[from + i]);
+  }
+  // A fixed end keeps its a^2. The scheme fixes z = u + eps a^2 sin u there, so u would move if a^2 changed.
+  const Boundary& ends = problem_->boundary;
+  const long right = static_cast<long>(problem_->grid.sites) - 1;
+  const auto hold = [&](long end) {
+    if (end >= first && end < first + static_cast<long>(size)) next_[at(end)] = *now(end);
+  };
+  if (!ends.periodic && ends.left == End::fixed) hold(0);
+  if (!ends.periodic && ends.right == End::fixed) hold(right);
+}
+
+/// Extrapolates a^2 to the next level, for use until `advance` computes it.
+void ContactField::look_ahead() {
+  for (std::size_t i = 0; i < now_.size(); ++i) next_[i] = 2 * now_[i] - before_[i];
+}
+
+void ContactField::exchange_all(const Ranks& ranks) {
+  for (std::vector<double>* values : {&before_, &next_, &share_}) fill_margins(*problem_, ranks, first_, 1, *values);
+}
+
+void ContactField::proceed() {
+  before_.swap(now_);
+  now_.swap(next_);
+  look_ahead();
+}
+
+void ContactField::check(double time) const {
+  const auto fails = [&](long j, const std::string& problem) {
+    throw NumericsError("t = " + digits(time) + ": at x = " + digits(problem_->grid.x(static_cast<std::size_t>(j))) +
+                        ' ' + problem);
+  };
+  const double limit = 1.01 * limit_;  // 1 % more, because the step has a margin
+  std::size_t bad = 0;
+  for (long j = begin(); j < end(); ++j) bad += *share(j) > 0 && *now(j) <= limit ? 0u : 1u;
+  for (long j = begin(); bad != 0 && j < end(); ++j) {
+    if (!(*share(j) > 0))
+      fails(j, "the pore pressure has reached the normal stress: the effective normal stress is " + digits(*share(j)) +
+                   " of it");
+    if (!(*now(j) <= limit))
+      fails(j, "contacts have become stronger than the time step allows: a^2 is " + digits(*now(j)) + ", at most " +
+                   digits(limit_));
+  }
+}
+
+void ContactField::save(std::size_t site, double* to) const {
+  to[0] = excess_[at(static_cast<long>(site))];
+  to[1] = *before(static_cast<long>(site));
+}
+
+void ContactField::resume(std::size_t site, double theta, const double* from) {
+  const long j = static_cast<long>(site);
+  excess_[at(j)] = from[0];
+  before_[at(j)] = from[1];
+  advance(j, 0, {&theta, 1}, {&theta, 1});
+  now_[at(j)] = *next(j);
 }
 
 }  // namespace slipfront::chain

@@ -4,20 +4,93 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "lattice/chain/explicit/contact_field.hpp"
+#include "friction/state/contacts.hpp"
 #include "lattice/chain/explicit/levels/scheme.hpp"
 #include "lattice/chain/explicit/levels/slab.hpp"
+#include "slipfront/lattice/chain/problem.hpp"
 #include "system/ranks.hpp"
 
 namespace slipfront::chain {
 
-/// A forcing F(x, t) at the sites of a rank, level by level. A formula takes a hundred times as long as a site, so
-/// where F is smooth in time it is the polynomial through its values at a few times, over as many levels as that is
-/// right to 1e-13 of its largest value. Each of these levels is compared with the formula at every 256th site, at
-/// others at the next level. Where no polynomial is right, the formula is called at each level.
+/// The site of the grid that j means. A j past an end is reflected there, or counted around a periodic chain.
+std::size_t folded(const Problem& problem, long j);
+
+/// Number of sites by which the arrays of a rank extend past its sites on either side: a halo, up to whole vectors.
+inline constexpr std::size_t margin = halo + 2 * lanes;
+
+/// (all) Fills the margins of an array with `columns` numbers for each site of this rank and of its margins, which
+/// begin at site `first`. A margin has the sites of the rank next to it. Past an end of the chain it has those that
+/// `folded` gives.
+void fill_margins(const Problem& problem, const Ranks& ranks, long first, std::size_t columns,
+                  std::vector<double>& values);
+
+/// Names of the state variables of a site, in the order of Levels::state. The state variables of the friction law come
+/// first. If contacts age or pores dilate, the excess pore pressure and a^2 at the level before follow.
+std::vector<std::string> state_names(const Problem& problem);
+
+/// Contacts that change with the state of friction: a^2 of every site at three time levels, and the pressure of its
+/// pores. The arrays hold the sites of one rank and its margins, and begin at site `first`.
+class ContactField {
+ public:
+  /// `a2` is a^2 at t = 0.
+  ContactField(const Problem& problem, long first, const std::vector<double>& a2);
+
+  bool acts() const { return contacts_.act(); }
+  /// Whether pores have a pressure, which then changes friction.
+  bool have_pressure() const { return contacts_.dilatancy > 0 || contacts_.ambient > 0; }
+  const double* before(long j) const { return before_.data() + at(j); }
+  const double* now(long j) const { return now_.data() + at(j); }
+  const double* next(long j) const { return next_.data() + at(j); }
+  /// 1 - p, from site j on.
+  const double* share(long j) const { return share_.data() + at(j); }
+
+  /// (all) Gets the present a^2 of the margins, which the next level needs.
+  void exchange(const Ranks& ranks) { fill_margins(*problem_, ranks, first_, 1, now_); }
+  /// (all) Gets everything else in the margins, which windows need.
+  void exchange_all(const Ranks& ranks);
+  /// Computes a^2 and the pore pressure at the next level, for the sites from `first` on. Their theta changed from
+  /// `theta_before` to `theta` in a step of length `time`.
+  void advance(long first, double time, std::span<const double> theta_before, std::span<const double> theta);
+  /// Moves to the next level.
+  void proceed();
+  /// \throws NumericsError if, at a site of this rank, the pressure of pores has reached the normal stress, or if
+  /// contacts have become too strong for the time step.
+  void check(double time) const;
+
+  /// How many numbers the state of a site has in addition to theta.
+  static constexpr std::size_t columns = 2;
+  void save(std::size_t site, double* to) const;
+  void resume(std::size_t site, double theta, const double* from);
+  /// Call this after all sites are resumed.
+  void resumed() { look_ahead(); }
+
+ private:
+  std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
+  long begin() const { return first_ + static_cast<long>(margin); }  ///< first site of this rank
+  long end() const { return first_ + static_cast<long>(now_.size() - margin); }
+  void look_ahead();
+
+  const Problem* problem_;
+  friction::Contacts contacts_;         ///< with the largest of numbers that vary
+  std::vector<friction::Contacts> at_;  ///< those of each site, if numbers of contacts or pores vary
+  long first_;
+  double limit_ = 0;            ///< largest a^2 for which the time step was chosen
+  std::vector<double> base_;    ///< a^2 without ageing and pore pressure
+  std::vector<double> excess_;  ///< p - p_0
+  std::vector<double> before_, now_, next_, share_;
+};
+
+/// A forcing F(x, t) at the sites of a rank, as a sum of at most eight functions of x times weights, which change from
+/// level to level. A formula takes a hundred times as long as a site, so where F is smooth in time it is the polynomial
+/// through its values at sixteen times, over as many levels as that is right to 1e-13 of its largest value. Each of
+/// these levels is compared with the formula, at other sites than the level before, so that most sites are compared
+/// once. The functions of x are rows of these values, from a decomposition with complete pivoting: sin(x - t) needs
+/// two. Where no polynomial is right, the formula is called at each level, and they are F at three levels.
 class ForcingInTime {
  public:
   ForcingInTime() = default;
@@ -25,42 +98,51 @@ class ForcingInTime {
   ForcingInTime(std::function<double(double x, double t)> forcing, std::vector<double> x, double dt)
       : forcing_(std::move(forcing)), x_(std::move(x)), dt_(dt) {}
 
-  /// (all) Sets F to its values at a level >= 0. They do not depend on the levels that were asked for before.
-  void at(long level, const Ranks& ranks, std::vector<double>& F);
-  /// The level after those of the last `at` at which `interpolate` gives F, too; 0 if none.
-  long end() const { return polynomial_ ? end_ : 0; }
-  /// Sets F to its values at such a level, on `size` sites from `first` on.
-  void interpolate(long level, std::size_t first, std::size_t size, double* F) const;
+  /// (all) Finds F at a level >= 0, the level before and some levels after it. It does not depend on the levels that
+  /// were asked for before. F need not be defined before the start, so there it is extrapolated.
+  void at(long level, const Ranks& ranks);
+  /// How many levels after that F is known.
+  std::size_t reach() const { return weights_.size() - 2; }
+  const ForceTerms::Weights& weights(long levels_after) const {
+    return weights_[static_cast<std::size_t>(levels_after + 1)];
+  }
+  ForceTerms terms(std::size_t site) const;
+  /// F at a site, so many levels after.
+  double operator()(std::size_t site, long levels_after) const;
 
  private:
-  static constexpr std::size_t nodes = 8;
-  static constexpr long longest = 1024, shortest = 64;  ///< levels of a polynomial
-  static constexpr std::size_t apart = 256;             ///< sites between those that are compared
+  static constexpr std::size_t nodes = 16;
+  static constexpr long longest = 16384, shortest = 64;  ///< levels of a polynomial
+  using NodeWeights = std::array<double, nodes>;
 
   double formula(std::size_t site, double level) const { return forcing_(x_[site], level * dt_); }
-  std::array<double, nodes> weights(double level) const;
+  double time_of(std::size_t node) const;
+  NodeWeights of_nodes(double level) const;
+  ForceTerms::Weights of_terms(double level) const;
+  void call_formula(long level);
   void choose(long level, const Ranks& ranks);
-  /// (all) Whether the polynomial over the levels from begin_ to end_ is right.
+  /// (all) Whether the polynomial from level begin_ - 2 to end_ is right.
   bool fits(const Ranks& ranks);
   double largest_error(long level, std::size_t first) const;
   void fill(std::size_t stride);
+  /// (all) Whether ForceTerms::most terms are enough.
+  bool decompose(const Ranks& ranks);
+  void resize_terms(std::size_t count);
+  void find_sums_beside();
+  /// Sites between those that are compared at a level.
+  std::size_t apart() const { return static_cast<std::size_t>(std::min(end_ - begin_, 1024L)); }
 
   std::function<double(double, double)> forcing_;
   std::vector<double> x_;
   double dt_ = 0;
   long begin_ = 0, end_ = 0;  ///< levels of the present polynomial, or of the present calls of the formula
   bool polynomial_ = false;
+  long called_ = -1;  ///< the level around which the terms are calls of the formula
   double most_ = 0;  ///< largest |F| at the nodes, of all ranks
   std::array<std::vector<double>, nodes> values_;
-};
-
-/// F at a level, at the level before and at the next one, from some site on. All are null without forcing, and equal if
-/// F does not change.
-struct ForceLevels {
-  const double *before = nullptr, *now = nullptr, *next = nullptr;
-  ForceLevels from(std::size_t site) const {
-    return now == nullptr ? *this : ForceLevels{before + site, now + site, next + site};
-  }
+  std::vector<NodeWeights> nodes_of_terms_;  ///< weights of a term in the values at the nodes
+  std::vector<Aligned> terms_, beside_;
+  std::vector<ForceTerms::Weights> weights_;  ///< of the terms, at each level from the one before on
 };
 
 /// Sites [left, right) whose next level is computed, as indices of arrays that begin at site `offset` of the chain. The
@@ -69,8 +151,8 @@ struct LevelSites {
   long offset;
   std::size_t left, right;
   const double *before, *now;
-  double *next, *y;  ///< `next` may be `before`, unless friction has an implicit speed
-  ForceLevels F = {};
+  double *next, *y;                      ///< `next` may be `before`, unless friction has an implicit speed
+  long ahead = 0;                        ///< levels after the present one of the forces
   const double* coefficients = nullptr;  ///< contact_coefficients, if a varies
   friction::LocalStates states = {};
   double* applied = nullptr;  ///< gets the friction force on each site, if it is neither linear nor constant
@@ -88,7 +170,7 @@ class Forces {
   /// The largest number of levels by which a site may be ahead of others.
   std::size_t reach() const {
     if (contacts_.acts()) return 1;
-    return steady() ? halo : static_cast<std::size_t>(std::max(forcing_.end() - 1 - level_, 1L));
+    return steady() ? halo : forcing_.reach();
   }
   /// Whether friction has an implicit speed, so that a next level needs the two before it.
   bool implicit_speed() const { return nonlinear_ && !problem_.friction.constant_strength(); }
@@ -101,20 +183,14 @@ class Forces {
   /// Contacts that change with the state of friction.
   const ContactField& contacts() const { return contacts_; }
   /// Whether F is absent or does not change.
-  bool steady() const { return F_next_.empty(); }
-  /// F from site j on at the present level.
-  ForceLevels F(long j) const {
-    if (F_now_.empty()) return {};
-    const double* const now = F_now_.data() + at(j);
-    return steady() ? ForceLevels{now, now, now} : ForceLevels{F_before_.data() + at(j), now, F_next_.data() + at(j)};
-  }
-  /// F from site j on, so many levels after the present one, at most `reach`.
-  void find_later_F(std::size_t levels, long j, std::size_t size, double* F) const {
-    forcing_.interpolate(level_ + static_cast<long>(levels), at(j), size, F);
-  }
+  bool steady() const { return steady_; }
+  /// F from site j on, if it does not change; and F if it does, as the sum of `weights` times terms.
+  const double* steady_F(long j) const { return steady_F_.data() + at(j); }
+  ForceTerms terms(long j) const { return forcing_.terms(at(j)); }
+  const ForceTerms::Weights& weights(long ahead) const { return forcing_.weights(ahead); }
   /// F at site j at the present level, and its rate of change. Both are 0 without forcing.
-  double now(long j) const { return F_now_.empty() ? 0.0 : F_now_[at(j)]; }
-  double rate(long j) const { return steady() ? 0.0 : (F_next_[at(j)] - F_before_[at(j)]) / (2 * dt_); }
+  double now(long j) const { return !problem_.forcing ? 0.0 : steady_ ? steady_F_[at(j)] : forcing_(at(j), 0); }
+  double rate(long j) const { return steady_ ? 0.0 : (forcing_(at(j), 1) - forcing_(at(j), -1)) / (2 * dt_); }
 
   /// Computes the next level but for the load and friction that is not linear, which `add_load_and_friction` adds.
   void begin_level(const EndConditions& ends, const LevelSites& sites, Outflow& outflow) const;
@@ -165,8 +241,7 @@ class Forces {
     return variables_ == 0 ? friction::LocalState{} : friction::LocalState{state_of(j), variables_};
   }
   std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
-  DriveRule drive_rule() const;
-  void evaluate_forcing(long level, const Ranks& ranks, std::vector<double>& F);
+  void add_load(const LevelSites& sites, std::size_t begin, std::size_t end) const;
   void add_friction(const LevelSites& sites, std::size_t begin, std::size_t end) const;
   void age_contacts(long first, std::size_t size, const double* velocity, double* states);
 
@@ -182,8 +257,8 @@ class Forces {
   std::vector<double> a2_;     ///< a^2; at t = 0 if it changes
   ContactField contacts_;
   ForcingInTime forcing_;
-  std::vector<double> F_before_, F_now_, F_next_;  ///< only F_now_ is filled if F does not depend on t
-  std::vector<double> steady_drive_;               ///< and then its effect on each level
+  bool steady_;
+  std::vector<double> steady_F_, steady_drive_;  ///< a force that does not change, and its effect on each level
 };
 
 }  // namespace slipfront::chain

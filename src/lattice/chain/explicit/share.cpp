@@ -82,7 +82,8 @@ void RankSites::check_execution() const {
 void RankSites::make_slabs() {
   const std::size_t whole = end_block_ - first_block_;
   const auto threads = static_cast<std::size_t>(execution_.threads);
-  execution_.tile = std::max(execution_.tile, 2 * halo);
+  const std::size_t cached = (execution_.tile + 2 * halo) * Sweep::least_arrays / Sweep::arrays(forces_, meter_);
+  execution_.tile = std::max(cached, 4 * halo) - 2 * halo;
   // Sites that move can take several times as long as those at rest, and be at one side. So each thread gets several
   // slabs, of a tile or more.
   constexpr std::size_t each = 8;
@@ -118,6 +119,23 @@ void RankSites::fill(const LevelsOf& source) {
       if (states > 0) forces_.set_states(from, levels.state);
     }
   forces_.resumed();
+  add_potential(-1, meter_.sums);
+}
+
+/// Adds F u at all sites to the energies supplied, for a force that does not change.
+void RankSites::add_potential(double strength, std::vector<double>& energies) const {
+  if (!problem_.forcing || !forces_.steady()) return;
+  std::vector<double> u, S;
+  for (const Slab& slab : slabs_)
+    for (std::size_t b = blocks_.of(slab.begin()); b < end_block_ && blocks_.begin(b) < slab.begin() + slab.size();
+         ++b) {
+      const std::size_t begin = blocks_.begin(b), end = blocks_.begin(b + 1), size = end - begin;
+      u.resize(size + lanes);
+      S.resize(size + lanes);
+      displacements(substrate_force(0), scheme_.eps, forces_.a2(static_cast<long>(begin)),
+                    slab.now() + (begin - slab.begin()), u.data(), S.data(), size);
+      meter_.add_potential(strength, forces_.steady_F(static_cast<long>(begin)), begin, end, u.data(), energies);
+    }
 }
 
 void RankSites::exchange_with_ranks() {
@@ -233,8 +251,8 @@ Levels RankSites::levels(std::size_t begin, std::size_t end) const {
   return levels;
 }
 
-std::vector<double> RankSites::flow_sums() const {
-  std::vector<double> sums = ranks_.joined(meter_.sums);
+std::vector<double> RankSites::flow_sums(const std::vector<double>& mine) const {
+  std::vector<double> sums = ranks_.joined(mine);
   double left = 0, right = 0;  // only one slab of one rank has each end
   for (const Slab& slab : slabs_) {
     left += slab.outflow.left;
@@ -260,7 +278,9 @@ void RankSites::continue_flows(const std::vector<double>& sums) {
 
 Flows RankSites::flows() const {
   Flows flows;
-  const std::vector<double> all = flow_sums();
+  std::vector<double> mine = meter_.sums;
+  add_potential(1, mine);
+  const std::vector<double> all = flow_sums(mine);
   double* const kinds[] = {&flows.supplied, &flows.dissipated, &flows.by_contacts};
   for (std::size_t i = 0; i + 2 < all.size(); ++i) *kinds[i / lanes % WorkMeter::kinds(problem_)] += all[i];
   flows.outflow = all[all.size() - 2] + all.back();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lattice/chain/explicit/forces.hpp"
-#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
 #include "lattice/chain/explicit/levels/scheme.hpp"
 #include "lattice/chain/explicit/levels/slab.hpp"
 #include "lattice/chain/explicit/sweep.hpp"
@@ -52,12 +52,14 @@ class RankSites {
   /// The levels of those sites of [begin, end) that this rank has.
   Levels levels(std::size_t begin, std::size_t end) const;
   /// (all) The works of all ranks, block by block, and the outflow through the two ends.
-  std::vector<double> flow_sums() const;
+  std::vector<double> flow_sums() const { return flow_sums(meter_.sums); }
   void continue_flows(const std::vector<double>& sums);
   Flows flows() const;  ///< (all)
 
  private:
+  std::vector<double> flow_sums(const std::vector<double>& mine) const;
   void check_execution() const;
+  void add_potential(double strength, std::vector<double>& energies) const;
   void make_slabs();
   void exchange_with_ranks();
   void exchange_slab(std::size_t i);

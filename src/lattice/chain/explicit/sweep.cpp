@@ -14,73 +14,75 @@ WorkMeter::WorkMeter(const Problem& p, const Scheme& s, const Blocks& blocks, st
     : sums(sums_of_block(p) * (end_block - first_block), 0.0),
       problem_(&p),
       dt_(s.dt),
+      energy_of_turn_(turn * p.grid.spacing),
       blocks_(blocks),
       first_block_(first_block),
       sums_of_block_(sums_of_block(p)) {
   if (!p.forcing && !p.friction.acts()) return;
   for (std::size_t b = first_block; b <= end_block; ++b) begins_.push_back(blocks.begin(b));
-  needs_two_steps_ = p.friction.acts() && p.friction.linear_coefficient();
-  needs_B_ = p.forcing && !p.steady_forcing;
+  if (p.friction.acts())
+    of_each_step_ = p.friction.linear_coefficient()  ? Measured::squares
+                    : p.friction.constant_strength() ? Measured::absolutes
+                                                     : Measured::steps;
+  else if (!p.steady_forcing)
+    of_each_step_ = Measured::steps;
 }
 
-template <class AddTo>
-void WorkMeter::add(std::size_t which, std::size_t begin, std::size_t end, double strength, const AddTo& add_to) {
+BlockSums WorkMeter::sums_of(Kind kind, std::vector<double>& energies, std::size_t begin, std::size_t end,
+                             std::size_t at) const {
   const std::size_t first = blocks_.of(begin) - first_block_, after = blocks_.of(end - 1) + 1 - first_block_;
-  const BlockSums to{&begins_[first], after - first, &sums[sums_of_block_ * first + lanes * which], sums_of_block_};
-  const double factor = strength * problem_->grid.spacing;
-  add_to(to, factor, 0);
-  if (problem_->boundary.periodic) return;
-  // Half a spacing belongs to the last site at an end.
-  constexpr std::size_t one[] = {0, 1};
-  if (begin == 0) add_to({one, 1, to.sums, 0}, -factor / 2, 0);
-  if (end == problem_->grid.sites)
-    add_to({one, 1, to.sums + to.stride * (to.blocks - 1), 0}, -factor / 2, end - 1 - begin);
+  const bool has_ends = !problem_->boundary.periodic;  // half a spacing belongs to the site at an end
+  return {.begins = &begins_[first],
+          .blocks = after - first,
+          .sums = &energies[sums_of_block_ * first + lanes * kind],
+          .stride = sums_of_block_,
+          .at = at,
+          .half_first = has_ends && begin == 0,
+          .half_last = has_ends && end == problem_->grid.sites};
+}
+
+StepOfU WorkMeter::step(std::size_t begin, std::size_t end, std::size_t at) {
+  const friction::Friction& f = problem_->friction;
+  const double factor = of_each_step_ == Measured::squares     ? *f.linear_coefficient() / dt_ * turn
+                        : of_each_step_ == Measured::absolutes ? *f.constant_strength()
+                                                               : 0;
+  return {.what = of_each_step_, .to = sums_of(dissipated, sums, begin, end, at), .factor = factor * energy_of_turn_};
+}
+
+void WorkMeter::add_potential(double strength, const double* F, std::size_t begin, std::size_t end, const double* u,
+                              std::vector<double>& energies) const {
+  add_products(sums_of(supplied, energies, begin, end), strength * energy_of_turn_, F, u);
 }
 
 void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, const Steps& s) {
-  constexpr std::size_t supplied = 0, by_contacts = 2;
-  const long site = static_cast<long>(begin);
-  const auto add_scratch = [&](std::size_t which) {
-    add(which, begin, end, 1,
-        [&](const BlockSums& to, double factor, std::size_t at) { add_values(to, factor, s.scratch + at); });
-  };
-  if (problem_->forcing && forces.steady())
-    add(supplied, begin, end, 1, [&, F = s.F.now](const BlockSums& to, double factor, std::size_t at) {
-      add_products(to, factor, F + at, s.D + at);
-    });
-  if (problem_->forcing && !forces.steady()) {
-    works_of_force(s.F.before, s.F.now, s.F.next, s.D, s.B, s.scratch, end - begin);
-    add_scratch(supplied);
+  if (needs_step_before()) {
+    const auto &before = forces.weights(s.ahead - 2), &now = forces.weights(s.ahead - 1),
+               &next = forces.weights(s.ahead);
+    ForceTerms::Weights of_D{}, of_B{};
+    for (std::size_t i = 0; i < of_D.size(); ++i) {
+      of_D[i] = (now[i] + next[i]) * 0.5;
+      of_B[i] = (next[i] - before[i]) * (1.0 / 12);
+    }
+    add_works(sums_of(supplied, sums, begin, end), energy_of_turn_, forces.terms(static_cast<long>(begin)), of_D, of_B,
+              s.D, s.D_before);
   }
   if (forces.contacts().acts()) {
-    forces.energies_of_contacts(site, end - begin, s.u, s.D, s.scratch);
-    add_scratch(by_contacts);
+    forces.energies_of_contacts(static_cast<long>(begin), end - begin, s.u, s.D, s.scratch);
+    add_values(sums_of(by_contacts, sums, begin, end), problem_->grid.spacing, s.scratch);
   }
-  if (problem_->friction.acts()) add_friction(begin, end, s);
+  if (problem_->friction.acts() && of_each_step_ == Measured::steps) add_friction(begin, end, s);
 }
 
 void WorkMeter::add_friction(std::size_t begin, std::size_t end, const Steps& s) {
-  constexpr std::size_t dissipated = 1;
-  const auto add_product = [&](double strength, const double* a, const double* b) {
-    add(dissipated, begin, end, strength,
-        [=](const BlockSums& to, double factor, std::size_t at) { add_products(to, factor, a + at, b + at); });
-  };
   const friction::Friction& friction = problem_->friction;
-  if (const auto C = friction.linear_coefficient()) {
-    add(dissipated, begin, end, *C / dt_, [&](const BlockSums& to, double factor, std::size_t at) {
-      add_squares(to, factor, s.D + at, s.D_before + at);
-    });
-  } else if (const auto f = friction.constant_strength()) {
-    add(dissipated, begin, end, *f,
-        [&](const BlockSums& to, double factor, std::size_t at) { add_absolutes(to, factor, s.D + at); });
-  } else if (friction.steep_at_rest()) {
-    add_product(1, s.applied, s.D);
-  } else {
-    const std::size_t size = end - begin;
-    speeds(1 / dt_, s.D, s.scratch, size);
-    friction.loops().strengths(size, s.scratch, s.states, s.further);
-    add_product(dt_, s.scratch, s.further);
+  if (friction.steep_at_rest()) {
+    add_products(sums_of(dissipated, sums, begin, end), energy_of_turn_, s.applied, s.D);
+    return;
   }
+  const std::size_t size = end - begin;
+  speeds(turn / dt_, s.D, s.scratch, size);
+  friction.loops().strengths(size, s.scratch, s.states, s.further);
+  add_products(sums_of(dissipated, sums, begin, end), dt_ * problem_->grid.spacing, s.scratch, s.further);
 }
 
 namespace {
@@ -114,17 +116,21 @@ Sweep::Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size
       coefficients_(forces.has_contact() ? PeriodicForce::terms * room_ : 0),
       states_(forces.variables() * room_),
       applied_(forces.implicit_speed() ? room_ : 0),
-      u_(meter.active() ? room_ : 0),
-      steps_{Aligned(meter.active() ? room_ : 0), Aligned(meter.needs_two_steps() ? room_ : 0)},
-      B_(meter.needs_B() ? room_ : 0),
-      later_F_{Aligned(forces.steady() ? 0 : room_), Aligned(forces.steady() ? 0 : room_),
-               Aligned(forces.steady() ? 0 : room_)},
+      u_(meter.of_each_step() != Measured::nothing ? room_ : 0),
+      steps_{Aligned(meter.of_each_step() != Measured::nothing ? room_ : 0),
+             Aligned(meter.needs_step_before() ? room_ : 0)},
       D_(steps_[0].data()),
-      D_before_(meter.needs_two_steps() ? steps_[1].data() : D_),
+      D_before_(meter.needs_step_before() ? steps_[1].data() : D_),
       left_now_(halo),
       left_old_(halo),
       left_states_(forces.variables() * halo),
       right_states_(forces.variables() * halo) {}
+
+std::size_t Sweep::arrays(const Forces& forces, const WorkMeter& meter) {
+  return least_arrays + (forces.has_contact() ? PeriodicForce::terms : 0) + forces.variables() +
+         (meter.of_each_step() == Measured::nothing ? 0 : 2) + (forces.implicit_speed() ? 2 : 0) +
+         (meter.needs_step_before() ? 3 : 0);
+}
 
 void Sweep::exchange_states() {
   const std::size_t count = forces_.variables() * halo;
@@ -200,15 +206,13 @@ void Sweep::prefetch(const Tile& t, std::size_t level, std::size_t count) const 
 
 /// The sites to compute at a level after which `rest` levels follow.
 LevelSites Sweep::sites_at(const Tile& t, std::size_t rest) {
-  const bool keeps_before = forces_.implicit_speed() || meter_.needs_B();
   LevelSites s{.offset = t.offset,
                .left = is_end(t.ends.left) ? own : own - rest,
                .right = is_end(t.ends.right) ? own + t.width : own + t.width + rest,
                .before = before_,
                .now = now_,
-               .next = keeps_before ? spare_ : before_,
-               .y = y_.data(),
-               .F = F_};
+               .next = forces_.implicit_speed() ? spare_ : before_,
+               .y = y_.data()};
   if (forces_.has_contact()) s.coefficients = coefficients_.data();
   if (forces_.variables() > 0) s.states = {states_.data(), forces_.variables()};
   if (forces_.implicit_speed()) s.applied = applied_.data();
@@ -217,66 +221,62 @@ LevelSites Sweep::sites_at(const Tile& t, std::size_t rest) {
 
 void Sweep::advance(const Tile& t, std::size_t count) {
   const std::size_t last = own + t.width;
-  F_ = forces_.F(t.offset);
   forces_.contact_coefficients(t.offset, pad, whole_vectors(last + halo), coefficients_.data());
+  StepOfU measured = step(t);
   for (std::size_t i = 0; i < count; ++i) {
     prefetch(t, i, count);
     LevelSites s = sites_at(t, count - 1 - i);
-    if (i == 0) {
-      begin_steps(s, last);
-    } else if (meter_.active()) {
-      std::swap(D_, D_before_);
-      s.step = {forces_.eps(), u_.data(), D_};
-    }
+    s.ahead = static_cast<long>(i);
+    take_turns(measured);
+    s.step = i == 0 ? first_step(t, s, measured) : measured;
     forces_.begin_level(t.ends, s, slab_.outflow);
-    if (i > 0) {
-      finish_step(t, s);
-      next_F(t, i);
-      s.F = F_;
-    }
+    if (i > 0) finish_step(t, s);
     forces_.add_load_and_friction(t.ends, s);
-    if (meter_.needs_B()) second_differences(before_ + own, now_ + own, s.next + own, B_.data() + own, t.width);
     if (s.next == before_) {
       std::swap(before_, now_);
     } else {
       spare_ = std::exchange(before_, std::exchange(now_, spare_));
     }
   }
-  last_step(t);
+  last_step(t, count);
 }
 
-/// Moves F to this level of an advance.
-void Sweep::next_F(const Tile& t, std::size_t level) {
-  if (forces_.steady()) return;
-  double* const next = later_F_[level % 3].data();
-  const std::size_t size = t.width + 2 * halo + 2;  // add_drive reads one more on either side
-  forces_.find_later_F(level + 1, t.offset + static_cast<long>(pad) - 1, size, next + pad - 1);
-  F_ = {F_.now, F_.next, next};
+/// What the first loop measures of the steps of a tile.
+StepOfU Sweep::step(const Tile& t) {
+  if (meter_.of_each_step() == Measured::nothing) return {};
+  const std::size_t first = slab_.begin() + t.from;
+  StepOfU step = meter_.step(first, first + t.width, own);
+  step.eps = forces_.eps();
+  step.u = u_.data();
+  return step;
 }
 
-/// Computes u, and the step before if it is needed.
-void Sweep::begin_steps(const LevelSites& s, std::size_t last) {
-  if (!meter_.active()) return;
-  if (!meter_.needs_two_steps()) {
-    forces_.displacements(s.coefficients, now_, u_.data(), own, whole_vectors(last));
-    return;
-  }
-  forces_.displacements(s.coefficients, before_, u_.data(), own, whole_vectors(last));
-  forces_.displacements(s.coefficients, now_, y_.data(), own, whole_vectors(last));
-  keep_differences(y_.data() + own, u_.data() + own, D_ + own, last - own);
+/// The step before moves to the array of that before it.
+void Sweep::take_turns(StepOfU& step) {
+  std::swap(D_, D_before_);
+  step.D = D_;
+  step.D_before = D_before_;
+}
+
+/// Lets the first loop of a sweep keep u and the step before, which it does not measure again.
+StepOfU Sweep::first_step(const Tile& t, const LevelSites& s, StepOfU measured) {
+  const std::size_t end = whole_vectors(own + t.width);
+  if (measured.what == Measured::squares || meter_.needs_step_before())
+    forces_.displacements(s.coefficients, before_, u_.data(), own, end);
+  if (measured.what != Measured::nothing) measured.what = Measured::steps;
+  return measured;
 }
 
 /// Measures the work of the step to this level, and then advances the state variables by it.
 void Sweep::finish_step(const Tile& t, const LevelSites& s) {
-  if (meter_.active()) {
+  if (meter_.of_each_step() != Measured::nothing) {
     const std::size_t first = slab_.begin() + t.from;
     const friction::LocalStates states = s.states.values == nullptr ? s.states : s.states.from(own);
     meter_.add(forces_, first, first + t.width,
                {.D = D_ + own,
                 .D_before = D_before_ + own,
-                .B = B_.data() + own,
                 .u = u_.data() + own,
-                .F = F_.from(own),
+                .ahead = s.ahead,
                 .applied = applied_.data() + own,
                 .states = states,
                 .scratch = y_.data() + own,
@@ -289,18 +289,20 @@ void Sweep::finish_step(const Tile& t, const LevelSites& s) {
 
 /// Finishes the step to the last level. Contacts that change must be advanced first, because the displacement at the
 /// next level depends on them. Friction has acted already.
-void Sweep::last_step(const Tile& t) {
+void Sweep::last_step(const Tile& t, std::size_t count) {
   const std::size_t last = own + t.width;
-  const LevelSites s = sites_at(t, 0);
+  LevelSites s = sites_at(t, 0);
+  s.ahead = static_cast<long>(count);
   if (forces_.contacts().acts()) {
     forces_.age(t.offset + static_cast<long>(own), t.width, before_ + own, now_ + own,
                 states_.data() + forces_.variables() * own);
     forces_.next_coefficients(t.offset, own, whole_vectors(last), coefficients_.data());
   }
-  if (meter_.active()) {
+  if (meter_.of_each_step() != Measured::nothing) {
     forces_.displacements(s.coefficients, now_, y_.data(), own, whole_vectors(last));
-    std::swap(D_, D_before_);
-    keep_differences(y_.data() + own, u_.data() + own, D_ + own, t.width);
+    StepOfU measured = step(t);
+    take_turns(measured);
+    measure_step(measured, y_.data(), t.width);
   }
   finish_step(t, s);
 }

@@ -13,8 +13,8 @@ namespace slipfront::chain {
 /// fourth order of the scheme. For a step from u to u + D, with the second difference B over levels, the work follows
 /// from
 ///     int F u_t dt = F_mean D + (F_next - F_before) B / 12,     int u_t^2 dt = (D^2 + B^2 / 12) / dt,
-/// up to terms that cancel from step to step. B is that of u for friction. For a force that changes, that of z is
-/// enough.
+/// up to terms that cancel from step to step. A force that does not change has the potential -F u: its work follows
+/// from u at the start and now.
 class WorkMeter {
  public:
   WorkMeter(const Problem& problem, const Scheme& scheme, const Blocks& blocks, std::size_t first_block,
@@ -22,20 +22,26 @@ class WorkMeter {
 
   /// Whether there is any work to measure.
   bool active() const { return !begins_.empty(); }
-  /// Whether D of the step before is needed, and B.
-  bool needs_two_steps() const { return needs_two_steps_; }
-  bool needs_B() const { return needs_B_; }
+  /// What is measured of each step in the first loop.
+  Measured of_each_step() const { return of_each_step_; }
+  /// Whether the work needs the step before each step.
+  bool needs_step_before() const { return active() && problem_->forcing && !problem_->steady_forcing; }
+  /// What the first loop measures on sites [begin, end), whole blocks that are at `at` in its arrays.
+  StepOfU step(std::size_t begin, std::size_t end, std::size_t at);
 
   /// A step of consecutive sites.
   struct Steps {
-    const double *D, *D_before, *B, *u;  ///< D_before is of the step before; u (turns) at the end of the step
-    ForceLevels F;                       ///< at the level where the step begins
-    const double* applied;               ///< friction that is neither linear nor constant
+    const double *D, *D_before, *u;  ///< u (turns) at the end of the step
+    long ahead;                      ///< levels of its end after the present one of the forces
+    const double* applied;           ///< friction that is neither linear nor constant
     friction::LocalStates states;
     double *scratch, *further;  ///< room for as many numbers; `further` may be `applied`
   };
-  /// Measures a step of sites [begin, end), which are whole blocks, from the level of the forces.
+  /// Measures what the first loop does not, for a step of such sites from the level of the forces.
   void add(const Forces& forces, std::size_t begin, std::size_t end, const Steps& steps);
+  /// Adds `strength` times F u of a force that does not change, at sites [begin, end), to the energies supplied.
+  void add_potential(double strength, const double* F, std::size_t begin, std::size_t end, const double* u,
+                     std::vector<double>& energies) const;
 
   /// The energies of each block of this rank, one block after the other: those supplied, dissipated, and, if contacts
   /// change, given to the substrate by them; each as a sum of `lanes` numbers.
@@ -44,17 +50,16 @@ class WorkMeter {
   static std::size_t kinds(const Problem& p) { return p.friction.changes_contacts() ? 3 : 2; }
 
  private:
+  enum Kind : std::size_t { supplied, dissipated, by_contacts };
+  BlockSums sums_of(Kind kind, std::vector<double>& energies, std::size_t begin, std::size_t end,
+                    std::size_t at = 0) const;
   void add_friction(std::size_t begin, std::size_t end, const Steps& steps);
-  /// Adds to the energies `which`. add_to(sums, factor, at) must add `factor` times the works on sites from begin + at
-  /// on.
-  template <class AddTo>
-  void add(std::size_t which, std::size_t begin, std::size_t end, double strength, const AddTo& add_to);
 
   const Problem* problem_;
-  double dt_;
+  double dt_, energy_of_turn_;  ///< energy of a unit force and a turn of one site
   Blocks blocks_;
   std::size_t first_block_, sums_of_block_;
-  bool needs_two_steps_ = false, needs_B_ = false;
+  Measured of_each_step_ = Measured::nothing;
   std::vector<std::size_t> begins_;  ///< first sites of the blocks of this rank, and the end of the last block
 };
 
@@ -66,6 +71,10 @@ class Sweep {
   /// The tiles begin and end at the sites `cuts`. If there is work to measure, they must be whole blocks. Each has at
   /// least as many sites as a halo, unless it is the only one.
   Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size_t> cuts);
+
+  /// How many numbers of a site each level reads or writes. With fewer of them, more sites stay in the cache.
+  static std::size_t arrays(const Forces& forces, const WorkMeter& meter);
+  static constexpr std::size_t least_arrays = 3;
 
   /// Gets the state variables of the sites next to the slab, which another thread may change while this one advances.
   void exchange_states();
@@ -85,10 +94,11 @@ class Sweep {
   void store(const Tile& tile);
   void advance(const Tile& tile, std::size_t count);
   LevelSites sites_at(const Tile& tile, std::size_t rest);
-  void next_F(const Tile& tile, std::size_t level);
-  void begin_steps(const LevelSites& sites, std::size_t last);
+  StepOfU first_step(const Tile& tile, const LevelSites& sites, StepOfU measured);
+  StepOfU step(const Tile& tile);
+  void take_turns(StepOfU& step);
   void finish_step(const Tile& tile, const LevelSites& sites);
-  void last_step(const Tile& tile);
+  void last_step(const Tile& tile, std::size_t count);
   void prefetch(const Tile& tile, std::size_t level, std::size_t count) const;
 
   Slab& slab_;
@@ -98,10 +108,8 @@ class Sweep {
   std::size_t room_;
   Aligned arrays_[3];
   double *before_, *now_, *spare_;  ///< the levels, which take turns in these arrays
-  Aligned y_, coefficients_, states_, applied_, u_, steps_[2], B_;
-  Aligned later_F_[3];
-  ForceLevels F_;                ///< at the present level of a tile; later levels take turns in `later_F_`
-  double *D_, *D_before_;        ///< the last two steps, which take turns in `steps_`
+  Aligned y_, coefficients_, states_, applied_, u_, steps_[2];
+  double *D_, *D_before_;        ///< the last two steps, which take turns in `steps_` if both are needed
   Aligned left_now_, left_old_;  ///< the sites left of the next tile before this one changes them
   Aligned left_states_, right_states_;
 };

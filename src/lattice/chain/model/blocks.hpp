@@ -8,19 +8,28 @@
 
 namespace slipfront::chain {
 
-/// The sites of a chain in blocks of 64 to 2048, which depend only on the number of sites. Ranks hold whole blocks, and
-/// sums over the chain are sums over blocks, added up in order: the same bits whatever the ranks.
+/// The sites of a chain in blocks, which depend only on the number of sites. Ranks hold whole blocks, and sums over the
+/// chain are sums over blocks, added up in order: the same bits whatever the ranks.
 struct Blocks {
-  static constexpr std::size_t least = 64;   ///< two halos
+  static constexpr std::size_t vector = 8;   ///< blocks begin at multiples of it, so that vectors hold the same sites
+  static constexpr std::size_t least = 72;   ///< two halos, and a vector that the block before may get
+  static constexpr std::size_t few = 64;     ///< so many blocks may be as small as that
+  static constexpr std::size_t usual = 256;  ///< a sum takes some time to begin and end, and a tile has whole blocks
+  static constexpr std::size_t many = 4096;  ///< if there are more blocks, they are larger
   static constexpr std::size_t most = 2048;  ///< fits into the innermost cache
-  static constexpr std::size_t usual_count = 4096;
 
   std::size_t sites;
-  std::size_t count = std::max(std::clamp<std::size_t>(sites / least, 1, usual_count), sites / most);
+  std::size_t count =
+      std::max({std::clamp<std::size_t>(sites / least, 1, few), std::min(sites / usual, many), sites / most});
 
-  std::size_t begin(std::size_t block) const { return sites / count * block + sites % count * block / count; }
-  /// The block of a site: begin(b) is b sites / count, rounded down.
-  std::size_t of(std::size_t site) const { return ((site + 1) * count - 1) / sites; }
+  std::size_t begin(std::size_t block) const {
+    if (block == count) return sites;
+    return (sites / count * block + sites % count * block / count) / vector * vector;
+  }
+  /// The block of a site: begin(b) is b sites / count, rounded down to whole vectors.
+  std::size_t of(std::size_t site) const {
+    return std::min(((site / vector + 1) * vector * count - 1) / sites, count - 1);
+  }
   /// The first block of `rank` of `ranks`.
   std::size_t first_of(int rank, int ranks) const {
     return count * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks);

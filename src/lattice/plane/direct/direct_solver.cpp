@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "lattice/plane/budget.hpp"
-#include "lattice/plane/direct/lines.hpp"
 #include "lattice/plane/direct/motion.hpp"
 #include "lattice/plane/direct/sites.hpp"
 #include "math/digits.hpp"

@@ -1,13 +1,20 @@
 #include "lattice/plane/direct/sites.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <span>
+#include <unordered_map>
+#include <utility>
 
 #include "lattice/plane/direct/rows.hpp"
 #include "math/digits.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/math/elliptic.hpp"
+#include "slipfront/theory/train.hpp"
 
 namespace slipfront::plane {
 
@@ -210,6 +217,236 @@ Sites widened(const Problem& p, const Sites& sites, std::size_t rows) {
   wide.ny = std::min(sites.first_row + sites.ny + rows, sites.all_rows) - wide.first_row;
   fill(p, wide);
   return wide;
+}
+
+namespace {
+
+using std::numbers::pi;
+
+/// A line crosses the edge from a site to the next one along x, or along y.
+struct Crossing {
+  std::size_t site;
+  bool along_y;
+  int number;  ///< number of the line
+
+  bool operator==(const Crossing&) const = default;
+};
+
+struct Hash {
+  std::size_t operator()(const Crossing& c) const {
+    const auto number = static_cast<std::uint64_t>(static_cast<std::int64_t>(c.number));
+    const std::uint64_t mixed = (static_cast<std::uint64_t>(c.site) * 2 + (c.along_y ? 1 : 0)) ^ (number << 44);
+    return static_cast<std::size_t>(mixed * 0x9e3779b97f4a7c15u >> 7);
+  }
+};
+
+/// Crossings in the order in which they were found, each joined to at most two others.
+class Contours {
+ public:
+  Contours(const std::vector<double>& u, const Sites& sites, int crossings_a_point)
+      : u_(u), sites_(sites), crossings_a_point_(crossings_a_point) {
+    for (std::size_t j = 0; j + 1 < sites.ny; ++j)
+      for (std::size_t i = 0; i + 1 < sites.nx; ++i) add_square(sites.at(i, j));
+  }
+
+  /// Lines that end at an edge come before those that are closed.
+  std::vector<Line> lines() {
+    std::vector<Line> all;
+    for (std::size_t start = 0; start < nodes_.size(); ++start)
+      if (!nodes_[start].used && nodes_[start].next[1] == none) all.push_back(follow(start));
+    for (std::size_t start = 0; start < nodes_.size(); ++start)
+      if (!nodes_[start].used) {
+        all.push_back(follow(start));
+        all.back().points.push_back(all.back().points.front());
+      }
+    return all;
+  }
+
+ private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  struct Node {
+    Crossing at;
+    std::array<std::size_t, 2> next{none, none};
+    bool used = false;
+  };
+
+  /// Lines are where this is a whole number.
+  double turns(std::size_t site) const { return u_[site] / (2 * pi) + 0.5; }
+
+  std::size_t node(const Crossing& at) {
+    const auto [found, is_new] = index_.try_emplace(at, nodes_.size());
+    if (is_new) nodes_.push_back({at});
+    return found->second;
+  }
+  void join(const Crossing& a, const Crossing& b) {
+    const std::size_t i = node(a), j = node(b);
+    for (const auto& [from, to] : {std::pair{i, j}, {j, i}}) {
+      std::array<std::size_t, 2>& next = nodes_[from].next;
+      (next[0] == none ? next[0] : next[1]) = to;
+    }
+  }
+
+  /// Joins the crossings of the square whose lowest left site is `site`, around it: two, or four at a saddle, where the
+  /// mean of the corners decides.
+  void add_square(std::size_t site) {
+    const std::size_t n = sites_.stride();
+    const std::array<double, 4> corner{turns(site), turns(site + 1), turns(site + n + 1), turns(site + n)};
+    const auto [least, most] = std::minmax_element(corner.begin(), corner.end());
+    if (!(std::fabs(*least) < 1e8 && *most - *least < 1e6)) return;  // not a displacement: the run ends with an error
+    const std::array<std::pair<std::size_t, bool>, 4> edges{
+        {{site, false}, {site + 1, true}, {site + n, false}, {site, true}}};
+    for (int number = static_cast<int>(std::floor(*least)) + 1; number <= *most; ++number) {
+      std::array<Crossing, 4> found{};
+      std::size_t count = 0;
+      for (std::size_t e = 0; e < 4; ++e)
+        if ((corner[e] < number) != (corner[(e + 1) % 4] < number))
+          found[count++] = {edges[e].first, edges[e].second, number};
+      if (count == 2) join(found[0], found[1]);
+      if (count < 4) continue;
+      const double middle = (corner[0] + corner[1] + corner[2] + corner[3]) / 4;
+      const bool around_first = (middle < number) != (corner[0] < number);  // the first corner is alone
+      join(found[0], found[around_first ? 3 : 1]);
+      join(found[2], found[around_first ? 1 : 3]);
+    }
+  }
+
+  Point point(const Crossing& c) const {
+    const std::size_t other = c.site + (c.along_y ? sites_.stride() : 1);
+    const double from = turns(c.site), part = (c.number - from) / (turns(other) - from);
+    const std::size_t column = c.site % sites_.stride(), row = c.site / sites_.stride();
+    const auto i = static_cast<double>(column - Sites::ghosts), j = static_cast<double>(row - Sites::ghost_rows);
+    return {sites_.left + (i + 0.5 + (c.along_y ? 0 : part)) * sites_.hx / sites_.scale,
+            sites_.bottom + (j + 0.5 + (c.along_y ? part : 0)) * sites_.hy / sites_.scale};
+  }
+
+  /// The line from `start` on, to its other end or around.
+  Line follow(std::size_t start) {
+    Line line{.number = nodes_[start].at.number, .points = {}};
+    std::size_t at = start, last = start;
+    int passed = 0;
+    for (; at != none && !nodes_[at].used; ++passed) {
+      Node& here = nodes_[at];
+      here.used = true;
+      if (passed % crossings_a_point_ == 0) line.points.push_back(point(here.at));
+      last = at;
+      at = here.next[0] != none && !nodes_[here.next[0]].used ? here.next[0] : here.next[1];
+    }
+    const bool is_open = nodes_[start].next[1] == none, has_last = (passed - 1) % crossings_a_point_ == 0;
+    if (is_open && !has_last) line.points.push_back(point(nodes_[last].at));
+    return line;
+  }
+
+  const std::vector<double>& u_;
+  const Sites& sites_;
+  int crossings_a_point_;
+  std::vector<Node> nodes_;
+  std::unordered_map<Crossing, std::size_t, Hash> index_;
+};
+
+}  // namespace
+
+std::vector<Line> lines_of(const std::vector<double>& u, const Sites& sites, int crossings_a_point) {
+  return Contours(u, sites, crossings_a_point).lines();
+}
+
+namespace {
+
+using std::numbers::pi;
+
+/// A held site takes the density of a site so many rows away.
+constexpr int passes = 4;
+/// The start of a row depends on so many rows on each side: those of the density, and one more for its slope.
+constexpr std::size_t reach = passes + 1;
+
+/// The mean slip, stretched, at each site.
+std::vector<double> mean_slip(const Problem& problem, const Sites& sites) {
+  std::vector<double> mean(sites.size(), 0.0);
+  for (std::size_t j = 0; j < sites.ny; ++j)
+    for (std::size_t i = 0; i < sites.nx; ++i) {
+      const double x = sites.x(i), y = sites.y(j), slip = problem.slip(x, y);
+      if (!(slip >= 0 && std::isfinite(slip)))
+        throw InputError({.key = "slip",
+                          .value = digits(slip),
+                          .problem = "not a slip at x = " + digits(x, 4) + ", y = " + digits(y, 4),
+                          .allowed = "a finite number >= 0"});
+      mean[sites.at(i, j)] = sites.scale * slip;
+    }
+  return mean;
+}
+
+/// A difference over one or two spacings, that of the two sites which falls more steeply, so that the slip next to a
+/// plateau or to the edge of the rupture keeps its slope.
+double slope(double before, double here, double after, double h) {
+  const double a = (here - before) / h, b = (after - here) / h;
+  const bool even = std::fabs(a - b) < 0.2 * std::fmax(std::fabs(a), std::fabs(b));
+  return even ? (a + b) / 2 : std::fabs(a) > std::fabs(b) ? a : b;
+}
+
+/// The density of lines at each site: the gradient of the mean slip.
+std::vector<double> densities(const std::vector<double>& mean, const Sites& sites) {
+  std::vector<double> density(sites.size(), 0.0);
+  for (std::size_t j = 0; j < sites.ny; ++j)
+    for (std::size_t i = 0; i < sites.nx; ++i) {
+      const std::size_t c = sites.at(i, j), n = sites.stride();
+      const double west = i > 0 ? mean[c - 1] : mean[c], east = i + 1 < sites.nx ? mean[c + 1] : mean[c];
+      const double south = j > 0 ? mean[c - n] : mean[c], north = j + 1 < sites.ny ? mean[c + n] : mean[c];
+      density[c] = std::hypot(slope(west, mean[c], east, sites.hx), slope(south, mean[c], north, sites.hy));
+    }
+  return density;
+}
+
+/// Gives held sites next to the lines the density of these lines, because the slip of a held region has no slope, or
+/// only a part of it next to the edge.
+void extend_into_held(const Sites& sites, std::vector<double>& density) {
+  if (sites.moves.empty()) return;
+  const std::size_t n = sites.stride();
+  for (std::size_t j = 0; j < sites.ny; ++j)
+    for (std::size_t i = 0; i < sites.nx; ++i) {
+      const std::size_t c = sites.at(i, j);
+      if (sites.moves[c] != 0) continue;
+      double next_to_it = 0;
+      for (const std::size_t other : {c - 1, c + 1, c - n, c + n})
+        next_to_it = std::fmax(next_to_it, density[other] * sites.moves[other]);
+      if (next_to_it > 0) density[c] = next_to_it;
+    }
+  for (int pass = 1; pass < passes; ++pass) {
+    const std::vector<double> before = density;
+    for (std::size_t j = 0; j < sites.ny; ++j)
+      for (std::size_t i = 0; i < sites.nx; ++i)
+        if (const std::size_t c = sites.at(i, j); sites.moves[c] == 0 && before[c] == 0)
+          density[c] = std::max({before[c - 1], before[c + 1], before[c - n], before[c + n]});
+  }
+}
+
+/// u of the train with the density `k`, in local units, whose mean is `mean`. Lines are at odd multiples of pi.
+double train_of(double k, double mean) {
+  const double wells = std::floor(mean / (2 * pi)), phase = mean - 2 * pi * wells;
+  if (k < train::smallest_stress) return 2 * pi * (phase < pi ? wells : wells + 1);
+  const elliptic::AtPsi at = elliptic::at_psi(train::psi_of_stress(k));
+  return 2 * pi * wells + 2 * elliptic::jacobi(at.K * (1 - phase / pi), at).coamplitude;
+}
+
+/// The start of the rows of `sites`, a part of the rows of `wide`.
+Start in_band(const Problem& problem, const Sites& wide, const Sites& sites) {
+  const std::vector<double> mean = mean_slip(problem, wide);
+  std::vector<double> density = densities(mean, wide);
+  extend_into_held(wide, density);
+  Start start{.u = std::vector<double>(sites.size(), 0.0)};
+  for (std::size_t j = 0; j < sites.ny; ++j)
+    for (std::size_t i = 0; i < sites.nx; ++i) {
+      const std::size_t c = wide.at(i, j + sites.first_row - wide.first_row);
+      const double k = density[c] / (wide.contact2.empty() ? 1 : std::sqrt(wide.contact2[c]));
+      start.u[sites.at(i, j)] = train_of(k, mean[c]);
+      start.largest_density = std::fmax(start.largest_density, k);
+    }
+  return start;
+}
+
+}  // namespace
+
+Start lines_at_rest(const Problem& problem, const Sites& sites) {
+  if (sites.has_bottom() && sites.has_top()) return in_band(problem, sites, sites);
+  return in_band(problem, widened(problem, sites, reach), sites);
 }
 
 }  // namespace slipfront::plane

@@ -3,6 +3,7 @@
 /// The sites of the direct solver and what acts on each. Lengths and times are stretched by the scale.
 /// The forces on the sites that do not depend on their motion: F, and the static load that holds the initial state.
 /// Friction on the sites, with its state, and the absorbing edges, which are dashpots of the impedance of waves.
+/// The dislocation lines of a state of all sites: the contours u = pi, 3 pi, 5 pi, ...
 
 #include <cstddef>
 #include <utility>
@@ -147,5 +148,10 @@ class SiteFriction {
   std::vector<double> states_;   ///< row by row of the band, without ghosts
   std::vector<char> patch_;      ///< sites of the nucleation patch, if friction holds the state
 };
+
+/// The lines of the stretched displacement `u`, as marching squares with linear interpolation between sites.
+/// Every so many crossings between sites become a point: by default every third, because crossings are about a third of
+/// a width apart.
+std::vector<Line> lines_of(const std::vector<double>& u, const Sites& sites, int crossings_a_point = 3);
 
 }  // namespace slipfront::plane

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "slipfront/error.hpp"
-#include "system/files/seal.hpp"
 #include "system/files/whole_file.hpp"
 #include "text/characters.hpp"
 

@@ -12,7 +12,6 @@
 #include "runs/record/netcdf/netcdf.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/text/quantity.hpp"
-#include "system/files/seal.hpp"
 #include "system/files/whole_file.hpp"
 #include "text/characters.hpp"
 #include "text/csv_records.hpp"

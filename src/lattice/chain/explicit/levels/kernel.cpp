@@ -1,6 +1,8 @@
 #include "lattice/chain/explicit/levels/kernel.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "math/constants.hpp"
 #include "math/simd/vector_code.hpp"
@@ -10,29 +12,95 @@ namespace {
 
 constexpr std::size_t terms = PeriodicForce::terms;
 
-/// Takes the step to z - eps S at site j.
-template <bool steps>
-[[gnu::always_inline]] inline void take_step(const StepOfU& step, double z, double S, std::size_t j) {
-  if constexpr (steps) {
-    const double u = z - step.eps * S;
-    step.D[j] = turn * (u - step.u[j]);
-    step.u[j] = u;
+/// What a site adds to a sum: first + second / 12.
+struct Term {
+  double first = 0, second = 0;
+};
+struct LaneSums {
+  double first[lanes] = {}, second[lanes] = {};
+};
+
+/// Calls site(j, k) for each site j of [begin, end), which are whole vectors; k is its lane. The first `count` numbers
+/// of what it returns are added to `part`.
+template <int count, class Site>
+[[gnu::always_inline]] inline void each_vector(std::size_t begin, std::size_t end, LaneSums& part, const Site& site) {
+  for (std::size_t j = begin; j < end; j += lanes) {
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const Term term = site(j + k, k);
+      if constexpr (count > 0) part.first[k] += term.first;
+      if constexpr (count > 1) part.second[k] += term.second;
+    }
   }
 }
 
-// Eq. (3): u_tt - u_xx + sin u = F - f. In z = u + eps sin u it is a rule of five points, with S = sin u as f(z):
-//     next = (keep z - force S - before z_old) + spread (y_left + y_right),    y = z - coupled S
-// The second sum is add_neighbours, and the load and other friction follow.
-template <bool steps>
-[[gnu::always_inline]] inline void local_loop(const LevelRule& r, const double* now, const double* old, double* next,
-                                              double* y, std::size_t n, const StepOfU& step) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < n; ++j) {
-    const double z = now[j], S = r.f(z);
-    y[j] = z - r.coupled * S;
-    next[j] = (r.keep * z - r.force * S) - r.before * old[j];
-    take_step<steps>(step, z, S, j);
+/// Like each_vector for the vector from site j on of block i. Sites outside the block add nothing.
+template <int count, class Site>
+[[gnu::always_inline]] inline void odd_vector(const BlockSums& to, std::size_t i, std::size_t j, LaneSums& part,
+                                              const Site& site) {
+  const std::size_t first = to.begin(i), last = to.begin(i + 1) - 1;
+  LaneSums odd;
+  each_vector<count>(j, j + lanes, odd, site);
+  for (std::size_t k = 0; k < lanes && j + k <= last; ++k) {
+    const bool half =
+        (to.half_first && i == 0 && j + k == first) || (to.half_last && i + 1 == to.blocks && j + k == last);
+    part.first[k] += half ? odd.first[k] / 2 : odd.first[k];
+    part.second[k] += half ? odd.second[k] / 2 : odd.second[k];
   }
+}
+
+/// Calls site(j, k) for each site of [begin, end), whole vectors. The sums of blocks get `factor` times what it
+/// returns.
+template <int count, class Site>
+[[gnu::always_inline]] inline void each_sum(const BlockSums& to, double factor, std::size_t begin, std::size_t end,
+                                            const Site& site) {
+  LaneSums unused;
+  each_vector<0>(begin, to.at, unused, site);
+  std::size_t j = to.at;
+  for (std::size_t i = 0; i < to.blocks; ++i) {
+    const std::size_t until = to.begin(i + 1), whole = until / lanes * lanes;
+    LaneSums part;
+    if (to.half_first && i == 0) {
+      odd_vector<count>(to, i, j, part, site);
+      j += lanes;
+    }
+    const bool odd = whole < until || (to.half_last && i + 1 == to.blocks);
+    const std::size_t even = std::max(j, whole < until || !odd ? whole : whole - lanes);
+    each_vector<count>(j, even, part, site);
+    j = even;
+    if (j < until) {
+      odd_vector<count>(to, i, j, part, site);
+      j += lanes;
+    }
+    double* const sums = to.sums + i * to.stride;
+    for (std::size_t k = 0; k < lanes; ++k) {
+      if constexpr (count > 1) part.first[k] += part.second[k] * (1.0 / 12);
+      part.first[k] = sums[k] + factor * part.first[k];
+    }
+    std::memcpy(sums, part.first, sizeof part.first);
+  }
+  each_vector<0>(j, end, unused, site);
+}
+
+/// Keeps u at site j and the step to it, and returns what is measured of the step.
+template <Measured what>
+[[gnu::always_inline]] inline Term keep(const StepOfU& step, double u, std::size_t j) {
+  if constexpr (what == Measured::nothing) return {};
+  const double D = u - step.u[j], B = D - step.D_before[j];
+  step.u[j] = u;
+  step.D[j] = D;
+  if constexpr (what == Measured::squares) return {D * D, B * B};
+  return {std::fabs(D)};
+}
+
+template <Measured what, class Site>
+[[gnu::always_inline]] inline void each_site(const StepOfU& step, std::size_t begin, std::size_t end,
+                                             const Site& site) {
+  LaneSums unused;
+  if constexpr (what == Measured::nothing || what == Measured::steps)
+    each_vector<0>(begin, end, unused, site);
+  else
+    each_sum<what == Measured::squares ? 2 : 1>(step.to, step.factor, begin, end, site);
 }
 
 /// S at lane j of a vector with these coefficients.
@@ -46,34 +114,83 @@ template <bool steps>
   return rest * p;
 }
 
-template <bool steps>
-[[gnu::always_inline]] inline void local_loop_with_coefficients(const LevelRule& r, const double* coefficients,
-                                                                const double* now, const double* old, double* next,
-                                                                double* y, std::size_t begin, std::size_t end,
-                                                                const StepOfU& step) {
-  for (std::size_t first = begin; first < end; first += lanes) {
-    const double* const c = coefficients + terms * first;
-    SLIPFRONT_INDEPENDENT
-    for (std::size_t j = 0; j < lanes; ++j) {
-      const double z = now[first + j], S = force_of_contact(c, z, j);
-      y[first + j] = z - r.coupled * S;
-      next[first + j] = (r.keep * z - r.force * S) - r.before * old[first + j];
-      take_step<steps>(step, z, S, first + j);
-    }
+/// S at site j, lane k of its vector, of a substrate of strength 1, or with coefficients site by site.
+struct EqualForce {
+  PeriodicForce f;
+  [[gnu::always_inline]] double operator()(double z, std::size_t, std::size_t) const { return f(z); }
+};
+struct ForceOfCoefficients {
+  const double* coefficients;
+  [[gnu::always_inline]] double operator()(double z, std::size_t j, std::size_t k) const {
+    return force_of_contact(coefficients + terms * (j - k), z, k);
   }
+};
+
+// Eq. (3): u_tt - u_xx + sin u = F - f. In z = u + eps sin u it is a rule of five points, with S = sin u as f(z):
+//     next = (keep z - force S - before z_old) + spread (y_left + y_right),    y = z - coupled S
+// The second sum is add_neighbours, and the load and other friction follow.
+template <class Force>
+struct FirstLoop {
+  LevelRule rule;  // copies: the stores cannot change them
+  Force force;
+  const double *now, *old;
+  double *next, *y;
+  std::size_t begin, end;
+  StepOfU step;
+
+  template <Measured what>
+  [[gnu::always_inline]] void measuring() const {
+    const FirstLoop l = *this;
+    each_site<what>(
+        l.step, l.begin, l.end, [&l](std::size_t j, std::size_t k) __attribute__((always_inline)) {
+          const double z = l.now[j], S = l.force(z, j, k);
+          l.y[j] = z - l.rule.coupled * S;
+          l.next[j] = (l.rule.keep * z - l.rule.force * S) - l.rule.before * l.old[j];
+          return keep<what>(l.step, z - l.step.eps * S, j);
+        });
+  }
+};
+
+struct StepTo {
+  StepOfU step;
+  const double* u_next;
+  std::size_t begin, end;
+
+  template <Measured what>
+  [[gnu::always_inline]] void measuring() const {
+    const StepTo l = *this;
+    each_site<what>(
+        l.step, l.begin, l.end, [&l](std::size_t j, std::size_t) __attribute__((always_inline)) {
+          return keep<what>(l.step, l.u_next[j], j);
+        });
+  }
+};
+
+/// Calls loop.measuring<what>() for what is measured of a step.
+template <class Loop>
+[[gnu::always_inline]] inline void as_measured(Measured what, const Loop& loop) {
+  if (what == Measured::nothing) return loop.template measuring<Measured::nothing>();
+  if (what == Measured::steps) return loop.template measuring<Measured::steps>();
+  if (what == Measured::absolutes) return loop.template measuring<Measured::absolutes>();
+  loop.template measuring<Measured::squares>();
 }
 
 }  // namespace
 
 SLIPFRONT_CLONES void local_part(const LevelRule& rule, const double* now, const double* old, double* next, double* y,
                                  std::size_t begin, std::size_t end, const StepOfU& step) {
-  const LevelRule r = rule;  // a copy: the stores cannot change it
-  const std::size_t n = (end - begin) / lanes * lanes;
-  if (step.u == nullptr)
-    local_loop<false>(r, now + begin, old + begin, next + begin, y + begin, n, {});
-  else
-    local_loop<true>(r, now + begin, old + begin, next + begin, y + begin, n,
-                     {step.eps, step.u + begin, step.D + begin});
+  as_measured(step.what, FirstLoop<EqualForce>{rule, {rule.f}, now, old, next, y, begin, end, step});
+}
+
+SLIPFRONT_CLONES void local_part_with_coefficients(const LevelRule& rule, const double* coefficients, const double* now,
+                                                   const double* old, double* next, double* y, std::size_t begin,
+                                                   std::size_t end, const StepOfU& step) {
+  as_measured(step.what, FirstLoop<ForceOfCoefficients>{rule, {coefficients}, now, old, next, y, begin, end, step});
+}
+
+SLIPFRONT_CLONES void measure_step(const StepOfU& step, const double* u_next, std::size_t size) {
+  const std::size_t begin = step.to.at;
+  as_measured(step.what, StepTo{step, u_next, begin, begin + (size + lanes - 1) / lanes * lanes});
 }
 
 namespace {
@@ -107,16 +224,6 @@ SLIPFRONT_CLONES void contact_coefficients(const ContactForce& force, const doub
   }
 }
 
-SLIPFRONT_CLONES void local_part_with_coefficients(const LevelRule& rule, const double* coefficients, const double* now,
-                                                   const double* old, double* next, double* y, std::size_t begin,
-                                                   std::size_t end, const StepOfU& step) {
-  const LevelRule r = rule;
-  if (step.u == nullptr)
-    local_loop_with_coefficients<false>(r, coefficients, now, old, next, y, begin, end, {});
-  else
-    local_loop_with_coefficients<true>(r, coefficients, now, old, next, y, begin, end, StepOfU(step));
-}
-
 SLIPFRONT_CLONES void displacements(const PeriodicForce& sine, double eps, const double* a2, const double* z, double* u,
                                     double* S, std::size_t size) {
   const PeriodicForce f = sine;
@@ -143,20 +250,6 @@ SLIPFRONT_CLONES void displacements(const PeriodicForce& force, double eps, cons
   }
 }
 
-SLIPFRONT_CLONES void keep_differences(const double* u_next, double* u, double* D, std::size_t size) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) {
-    D[j] = turn * (u_next[j] - u[j]);
-    u[j] = u_next[j];
-  }
-}
-
-SLIPFRONT_CLONES void second_differences(const double* before, const double* now, const double* next, double* B,
-                                         std::size_t size) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) B[j] = turn * ((next[j] - now[j]) - (now[j] - before[j]));
-}
-
 SLIPFRONT_CLONES void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end) {
   const std::size_t n = (end - begin) / lanes * lanes;
   const double *left = y + begin - 1, *right = y + begin + 1;
@@ -165,13 +258,50 @@ SLIPFRONT_CLONES void add_neighbours(double spread, const double* y, double* nex
   for (std::size_t j = 0; j < n; ++j) next[j] += spread * (left[j] + right[j]);
 }
 
-SLIPFRONT_CLONES void add_drive(const DriveRule& rule, const double* F_before, const double* F_now,
-                                const double* F_next, double* next, std::size_t size) {
-  const DriveRule r = rule;
-  const double *left = F_now - 1, *right = F_now + 1;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j)
-    next[j] += r.next * F_next[j] + r.before * F_before[j] + r.now * F_now[j] + r.neighbour * (left[j] + right[j]);
+namespace {
+
+constexpr std::size_t terms_at_once = 4;
+
+/// Calls loop.of<n>(first) for all terms, n of them at once from `first` on.
+template <class Loop>
+[[gnu::always_inline]] inline void each_term(const ForceTerms& F, const Loop& loop) {
+  std::size_t first = 0;
+  for (; first + terms_at_once <= F.count; first += terms_at_once) loop.template of<terms_at_once>(first);
+  if (F.count - first == 1) loop.template of<1>(first);
+  if (F.count - first == 2) loop.template of<2>(first);
+  if (F.count - first == 3) loop.template of<3>(first);
+}
+
+struct AddDrive {
+  const ForceTerms& F;
+  const ForceTerms::Weights &own, &beside;
+  double* next;
+  std::size_t size;
+
+  template <std::size_t n>
+  [[gnu::always_inline]] void of(std::size_t first) const {
+    const double *X[n], *Y[n];
+    double c[n], b[n];
+    for (std::size_t s = 0; s < n; ++s) {
+      X[s] = F.X[first + s];
+      Y[s] = F.beside[first + s];
+      c[s] = own[first + s];
+      b[s] = beside[first + s];
+    }
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t j = 0; j < size; ++j) {
+      double sum = next[j];
+      for (std::size_t s = 0; s < n; ++s) sum += c[s] * X[s][j] + b[s] * Y[s][j];
+      next[j] = sum;
+    }
+  }
+};
+
+}  // namespace
+
+SLIPFRONT_CLONES void add_drive(const ForceTerms& F, const ForceTerms::Weights& own, const ForceTerms::Weights& beside,
+                                double* next, std::size_t size) {
+  each_term(F, AddDrive{F, own, beside, next, size});
 }
 
 SLIPFRONT_CLONES void add_steady_drive(const double* drive, double* next, std::size_t size) {
@@ -182,8 +312,8 @@ SLIPFRONT_CLONES void add_steady_drive(const double* drive, double* next, std::s
 SLIPFRONT_CLONES void shorten_steps(double most, const double* now, double* next, std::size_t size) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) {
-    const double step = next[j] - now[j], rest = std::fabs(step) - most;
-    next[j] = now[j] + std::copysign(rest <= 0 ? 0.0 : rest, step);
+    const double step = next[j] - now[j], stopped = step < -most ? -most : step > most ? most : step;
+    next[j] = now[j] + (step - stopped);
   }
 }
 
@@ -231,48 +361,60 @@ SLIPFRONT_CLONES void speeds(double per_step, const double* D, double* speed, st
 
 namespace {
 
-/// term(j) of each site, in the sums of the blocks.
-template <class Term>
-[[gnu::always_inline]] inline void add_terms(const BlockSums& to, const Term& term) {
-  for (std::size_t i = 0; i < to.blocks; ++i) {
-    double* const sums = to.sums + i * to.stride;
-    double part[lanes];
-    for (std::size_t k = 0; k < lanes; ++k) part[k] = sums[k];
-    const std::size_t begin = to.begins[i] - to.begins[0], end = to.begins[i + 1] - to.begins[0];
-    const std::size_t whole = begin + (end - begin) / lanes * lanes;
-    for (std::size_t j = begin; j < whole; j += lanes)
-      for (std::size_t k = 0; k < lanes; ++k) part[k] += term(j + k);
-    for (std::size_t k = 0; k < end - whole; ++k) part[k] += term(whole + k);
-    for (std::size_t k = 0; k < lanes; ++k) sums[k] = part[k];
-  }
+/// Adds of_site(j) of each site of the blocks, counted from the first.
+template <class OfSite>
+[[gnu::always_inline]] inline void add_terms(BlockSums to, double factor, const OfSite& of_site) {
+  to.at = 0;
+  each_sum<1>(to, factor, 0, 0, [&](std::size_t j, std::size_t) __attribute__((always_inline)) {
+    return Term{of_site(j)};
+  });
 }
 
 }  // namespace
 
-SLIPFRONT_CLONES void add_products(const BlockSums& to, double factor, const double* a, const double* b) {
-  add_terms(to, [=](std::size_t j) { return factor * a[j] * b[j]; });
-}
-
 SLIPFRONT_CLONES void add_values(const BlockSums& to, double factor, const double* a) {
-  add_terms(to, [=](std::size_t j) { return factor * a[j]; });
+  add_terms(to, factor, [=](std::size_t j) { return a[j]; });
 }
 
-SLIPFRONT_CLONES void add_squares(const BlockSums& to, double factor, const double* D, const double* D_before) {
-  add_terms(to, [=](std::size_t j) {
-    const double B = D[j] - D_before[j];
-    return factor * (D[j] * D[j] + B * B * (1.0 / 12));
-  });
+SLIPFRONT_CLONES void add_products(const BlockSums& to, double factor, const double* a, const double* b) {
+  add_terms(to, factor, [=](std::size_t j) { return a[j] * b[j]; });
 }
 
-SLIPFRONT_CLONES void add_absolutes(const BlockSums& to, double factor, const double* a) {
-  add_terms(to, [=](std::size_t j) { return factor * std::fabs(a[j]); });
-}
+namespace {
 
-SLIPFRONT_CLONES void works_of_force(const double* F_before, const double* F_now, const double* F_next, const double* D,
-                                     const double* B, double* work, std::size_t size) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j)
-    work[j] = (F_now[j] + F_next[j]) * 0.5 * D[j] + (F_next[j] - F_before[j]) * B[j] * (1.0 / 12);
+struct AddWorks {
+  const BlockSums& to;
+  double factor;
+  const ForceTerms& F;
+  const ForceTerms::Weights &of_D, &of_B;
+  const double *D, *D_before;
+
+  template <std::size_t n>
+  [[gnu::always_inline]] void of(std::size_t first) const {
+    const double* X[n];
+    double c[n], b[n];
+    for (std::size_t s = 0; s < n; ++s) {
+      X[s] = F.X[first + s];
+      c[s] = of_D[first + s];
+      b[s] = of_B[first + s];
+    }
+    const double *const step = D, *const before = D_before;
+    add_terms(
+        to, factor, [=](std::size_t j) __attribute__((always_inline)) {
+          const double B = step[j] - before[j];
+          double work = 0;
+          for (std::size_t s = 0; s < n; ++s) work += X[s][j] * (c[s] * step[j] + b[s] * B);
+          return work;
+        });
+  }
+};
+
+}  // namespace
+
+SLIPFRONT_CLONES void add_works(const BlockSums& to, double factor, const ForceTerms& F,
+                                const ForceTerms::Weights& of_D, const ForceTerms::Weights& of_B, const double* D,
+                                const double* D_before) {
+  each_term(F, AddWorks{to, factor, F, of_D, of_B, D, D_before});
 }
 
 SLIPFRONT_CLONES void energies_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next,
@@ -280,19 +422,9 @@ SLIPFRONT_CLONES void energies_of_contacts(const PeriodicForce& sine, const doub
   const PeriodicForce f = sine;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) {
-    const double cosines = f(u[j] + 0.25) + f(u[j] - D[j] * (1 / turn) + 0.25);  // over 2 pi
+    const double cosines = f(u[j] + 0.25) + f(u[j] - D[j] + 0.25);  // over 2 pi
     energy[j] = (a2_next[j] - a2[j]) * (1 - turn / 2 * cosines);
   }
-}
-
-SLIPFRONT_CLONES void weighted_sum(const std::array<double, 8>& weights, const std::array<const double*, 8>& values,
-                                   double* sum, std::size_t size) {
-  const auto w = weights;
-  const auto v = values;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j)
-    sum[j] = ((w[0] * v[0][j] + w[1] * v[1][j]) + (w[2] * v[2][j] + w[3] * v[3][j])) +
-             ((w[4] * v[4][j] + w[5] * v[5][j]) + (w[6] * v[6][j] + w[7] * v[7][j]));
 }
 
 SLIPFRONT_CLONES bool bounded(const double* z, std::size_t size) {

@@ -2,14 +2,50 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <vector>
 
-#include "lattice/chain/explicit/levels/contact_force.hpp"
 #include "lattice/chain/model/periodic_force.hpp"
+
+namespace slipfront::chain {
+
+/// All that an explicit chain needs to continue, to the same bits: two levels of z / 2 pi (docs/chain.md), and the
+/// state of friction if it has any.
+struct Levels {
+  long level = 0;  ///< steps done
+  std::vector<double> now, before;
+  /// The friction law's state variables, site by site, and those of contacts that change (state_names in
+  /// contact_field.hpp). Empty at a start.
+  std::vector<double> state = {};
+};
+
+/// The levels of sites [begin, end), for chains that no process holds whole.
+using LevelsOf = std::function<Levels(std::size_t begin, std::size_t end)>;
+
+/// The force S = a^2 sin u of a substrate of strength a^2, as a function of z = u + eps S. It is a^2 times a
+/// PeriodicForce whose coefficients are polynomials in a^2, so that no equation is solved for u.
+struct ContactForce {
+  static constexpr int powers = 5;
+  double c[PeriodicForce::terms][powers] = {};
+
+  /// Coefficient k of the PeriodicForce. It is always inlined, with its loops unrolled, so that loops over sites become
+  /// vector code.
+  [[gnu::always_inline]] double coefficient(int k, double a2) const {
+    double p = c[k][powers - 1];
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC unroll 16
+#endif
+    for (int i = powers - 2; i >= 0; --i) p = p * a2 + c[k][i];
+    return p;
+  }
+};
+
+/// The force for 0 <= a^2 <= `most`. Its error is that of PeriodicForce at eps a^2.
+ContactForce contact_force(double eps, double most);
 
 /// The loops over sites in which a chain spends its time. They are vector code that is chosen at run time (AVX-512,
 /// AVX2 or plain). Every site goes through the same operations, wherever it is in a vector, so tiles and threads do not
 /// change the results.
-namespace slipfront::chain {
 
 /// The coefficients of one step from z to z at the next level, which takes two loops:
 ///     S = f(z)    y = z - coupled S    next = keep z - force S - before z_old    next += spread (y_left + y_right)
@@ -20,11 +56,31 @@ struct LevelRule {
 
 inline constexpr std::size_t lanes = 8;  ///< ranges are multiples of this; arrays are aligned to this number of doubles
 
-/// u at the level that the first loop starts from, if the step since the level before is wanted: D gets the step in
-/// radians, and u (turns) its value at this level.
+/// Consecutive blocks of sites: block i has those from begins[i] to begins[i + 1], counted from begins[0] on, which is
+/// at `at` in arrays. Its sum is that of `lanes` numbers, one for each lane of a vector, from sums + i stride on. All
+/// begin at whole vectors, so that the order of a sum depends only on its block. The site at the end of a chain has
+/// half a spacing. Arrays
+/// end with whole vectors.
+struct BlockSums {
+  const std::size_t* begins = nullptr;
+  std::size_t blocks = 0;
+  double* sums = nullptr;
+  std::size_t stride = 0, at = 0;
+  bool half_first = false, half_last = false;
+
+  std::size_t begin(std::size_t i) const { return at + (begins[i] - begins[0]); }
+};
+
+/// What the first loop measures on its way: u at the level that it starts from, in turns, and the step D since the
+/// level before. Sums of blocks get, times `factor`, |D| or D^2 + B^2 / 12 with B = D - D_before (WorkMeter).
+enum class Measured { nothing, steps, absolutes, squares };
 struct StepOfU {
+  Measured what = Measured::nothing;
   double eps = 0;
-  double *u = nullptr, *D = nullptr;
+  double *u = nullptr, *D = nullptr;  ///< at the level before; they become those of this level
+  const double* D_before = nullptr;   ///< where D is at the level before; may be the same array
+  BlockSums to = {};
+  double factor = 0;
 };
 
 /// The first loop, over [begin, end). `old` is the level before, and may be the same array as `next`.
@@ -45,19 +101,24 @@ void displacements(const PeriodicForce& sine, double eps, const double* a2, cons
 /// null if a is 1 everywhere.
 void displacements(const PeriodicForce& f, double eps, const double* coefficients, const double* z, double* u,
                    std::size_t begin, std::size_t end);
-/// Computes the step D from u to u_next, in radians, and sets u to u_next.
-void keep_differences(const double* u_next, double* u, double* D, std::size_t size);
-/// Computes the second difference of z over levels, in radians.
-void second_differences(const double* before, const double* now, const double* next, double* B, std::size_t size);
+/// Measures the step to u_next, as the first loop does, on the first `size` sites of blocks.
+void measure_step(const StepOfU& step, const double* u_next, std::size_t size);
 
 /// The second loop. It reads y from begin - 1 to end.
 void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end);
 
-/// Adds to z at the next level the effect of a force F, which is shared among the five points of the diamond.
-struct DriveRule {
-  double next = 0, before = 0, now = 0, neighbour = 0;  ///< coefficients, in turns
+/// A force on consecutive sites as a sum of functions X of x, each times a weight that changes from level to level.
+/// `beside` are the sums of X at both neighbours of each site.
+struct ForceTerms {
+  static constexpr std::size_t most = 8;
+  using Weights = std::array<double, most>;
+
+  std::size_t count = 0;
+  std::array<const double*, most> X = {}, beside = {};
 };
-void add_drive(const DriveRule& rule, const double* F_before, const double* F_now, const double* F_next, double* next,
+/// Adds to z at the next level the effect of a force, which is shared among the five points of the diamond: `own` are
+/// the weights of X at the site, `beside` those of its neighbours.
+void add_drive(const ForceTerms& F, const ForceTerms::Weights& own, const ForceTerms::Weights& beside, double* next,
                std::size_t size);
 /// Adds `drive`, which is that effect of a force that does not change.
 void add_steady_drive(const double* drive, double* next, std::size_t size);
@@ -77,32 +138,18 @@ void take_speeds(double per_step, double per_weight, const double* from, const d
 void velocities(double per_step, const double* now, const double* next, double* velocity, std::size_t size);
 /// Sets `speed` to |D| times `per_step`.
 void speeds(double per_step, const double* D, double* speed, std::size_t size);
-/// Consecutive blocks of sites: block i has those from begins[i] to begins[i + 1], counted from begins[0] on. Its sum
-/// is that of `lanes` numbers, one for each lane of a vector, from sums + i stride on.
-struct BlockSums {
-  const std::size_t* begins;
-  std::size_t blocks;
-  double* sums;
-  std::size_t stride;
-};
-/// Add `factor` times a, |a| or the products of a and b to the sums of their blocks. The order depends only on the
+/// Add `factor` times a or the products of a and b to the sums of blocks. The arrays begin at the first site of the
 /// blocks.
 void add_values(const BlockSums& to, double factor, const double* a);
 void add_products(const BlockSums& to, double factor, const double* a, const double* b);
-/// Adds `factor` times D^2 + (D - D_before)^2 / 12 of each site (WorkMeter).
-void add_squares(const BlockSums& to, double factor, const double* D, const double* D_before);
-void add_absolutes(const BlockSums& to, double factor, const double* a);
-/// The work of a force F in a step of each site (WorkMeter).
-void works_of_force(const double* F_before, const double* F_now, const double* F_next, const double* D, const double* B,
-                    double* work, std::size_t size);
-/// Energy that contacts give to the substrate at each site when a^2 changes from a2 to a2_next. The step D (radians)
-/// ends at `u` (turns).
+/// Adds `factor` times the work of a force in steps D, whose second differences are D - D_before: of_D and of_B are the
+/// weights of X in the factors of both (WorkMeter).
+void add_works(const BlockSums& to, double factor, const ForceTerms& F, const ForceTerms::Weights& of_D,
+               const ForceTerms::Weights& of_B, const double* D, const double* D_before);
+/// Energy that contacts give to the substrate at each site when a^2 changes from a2 to a2_next. The step D ends at `u`
+/// (turns).
 void energies_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next, const double* u,
                           const double* D, double* energy, std::size_t size);
-
-/// The sum of eight arrays with these weights.
-void weighted_sum(const std::array<double, 8>& weights, const std::array<const double*, 8>& values, double* sum,
-                  std::size_t size);
 
 /// Whether every |z| is small enough for the range reduction. It is false if any z is NaN.
 bool bounded(const double* z, std::size_t size);

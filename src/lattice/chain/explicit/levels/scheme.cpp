@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lattice/chain/explicit/levels/contact_force.hpp"
+#include "lattice/chain/explicit/levels/kernel.hpp"
 
 namespace slipfront::chain {
 

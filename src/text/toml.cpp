@@ -1,4 +1,4 @@
-#include "text/parse_toml.hpp"
+#include "text/toml.hpp"
 
 #include <algorithm>
 #include <utility>

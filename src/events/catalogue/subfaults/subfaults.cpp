@@ -1,4 +1,4 @@
-#include "events/catalogue/subfaults/columns.hpp"
+#include "events/catalogue/subfaults/subfaults.hpp"
 
 #include <algorithm>
 #include <cmath>

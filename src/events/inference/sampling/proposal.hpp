@@ -2,6 +2,10 @@
 /// \file
 /// The pulse that an observer sees: its state at a given velocity of the observed front and a given damping number.
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "slipfront/events/catalogue/observation.hpp"
 #include "slipfront/friction/ratio/table.hpp"
 #include "slipfront/theory/rupture/relations.hpp"
@@ -61,5 +65,24 @@ class PulseModel {
   double least_psi_, most_psi_, least_seen_, most_seen_;
   double least_ln_V_, most_ln_V_;
 };
+
+/// Points of the Sobol sequence in the open unit cube, moved by a digital shift that a seed makes.
+class ShiftedSobol {
+ public:
+  static constexpr std::size_t dimensions = 16;
+  ShiftedSobol(std::size_t points, std::uint64_t seed);
+  /// Makes room for more points; those there stay the same.
+  void grow(std::size_t points);
+  /// Coordinate `dimension` of a point.
+  double operator()(std::size_t point, std::size_t dimension) const;
+
+ private:
+  const std::vector<std::uint64_t>* points_;
+  std::uint64_t shift_[dimensions];
+};
+
+/// A seed for one event, from that of the run and the observed numbers. Events with the same numbers have the same
+/// seed, whatever their names and their positions in a file.
+std::uint64_t seed_of(std::uint64_t seed, const catalogue::Observation& observation);
 
 }  // namespace slipfront::inference

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 // clang-format off
 #define TOML_ASSERT(x) static_cast<void>(0)  // else an escape such as "[\x06" aborts
 #define TOML_EXCEPTIONS 0                    // the exception's constructor, which must not throw, ends all without memory
@@ -28,5 +30,9 @@ toml::table parse_toml(std::string_view text, const std::string& file);
 
 /// The line on which a node of a document begins, for messages.
 inline std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
+
+/// A document as TOML text, and a value as its text in one. Numbers have the shortest form that reads back the same.
+std::string toml_document(const toml::table& table);
+std::string toml_text(const toml::node& node);
 
 }  // namespace slipfront
