@@ -140,12 +140,17 @@ void ImplicitStep::evaluate(std::size_t j, double dt) {
 /// w + f(w) / A is the result of the linear step, with A the slope of all other forces. Friction that is a logarithm of
 /// the velocity changes it by many decades at a time, up or down, which no linear step follows.
 double ImplicitStep::velocity_under_friction(std::size_t j, double change, double dt) const {
-  const double w = w_[j], f = friction_[j];
+  const double w = w_[j];
   const double by_springs = dt * per_weight_[j] / (2 * springs_.spacing() * springs_.spacing());
   const double weight = 1 / std::fmax(slope_[j] - friction_slope_[j] + by_springs, per_weight_[j] / (2 * dt));
   SiteForces::State values;
+  const std::span<const double> state = forces_.evolved(*from_, j, mean_velocity(j), dt / 2, values);
+  // The force of contacts that change belongs to the other forces here.
+  const bool changes = forces_.contacts_change();
+  const double share = changes ? forces_.aged(*from_, j, mean_velocity(j), dt).share : 1;
+  const double f = changes ? share * friction_law_.force(w, state) : friction_[j];
   const double linear = w + weight * f + change * (1 + weight * friction_slope_[j]);
-  return friction_law_.velocity_after(linear, weight, forces_.evolved(*from_, j, mean_velocity(j), dt / 2, values));
+  return friction_law_.velocity_after(linear, weight * share, state);
 }
 
 /// Changes the velocities by Newton's method. They have converged if all sites have: in relative velocity, or in the
