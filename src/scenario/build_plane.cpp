@@ -118,7 +118,9 @@ void read_formulas(const Document& document, Scenario& scenario) {
   }
   if (forcing.has("formula")) {
     scenario.forcing = *forcing.formula("formula");
-    p.forcing = read_forcing(forcing, {"x", "y", "t"}, ratio);
+    const CheckedFormula F = read_forcing(forcing, {"x", "y", "t"}, ratio);
+    p.steady_forcing = !F.has("t");
+    p.forcing = F;
   }
 }
 

@@ -18,7 +18,7 @@ TEST(PlaneRows, HaveTheSubstrateOfASine) {
   const plane::RowShape shape{.sites = n, .per_hx2 = 0, .per_hy2 = 0};
   for (const bool rough : {false, true}) {
     const double a2 = rough ? 0.49 : 1;
-    plane::accelerate(shape, {row, row, row, row, row}, rough ? contact2.data() : nullptr,
+    plane::accelerate(shape, {row, row, row, row, row}, {.contact2 = rough ? contact2.data() : nullptr},
                       {v.data(), sine.data(), cosine.data()});
     double energy = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -28,6 +28,27 @@ TEST(PlaneRows, HaveTheSubstrateOfASine) {
       energy += a2 * (1 - std::cos(row[i]));
     }
     EXPECT_NEAR(plane::substrate_energy(n, row, rough ? contact2.data() : nullptr) / energy, 1, 1e-12);
+  }
+}
+
+/// Whatever acts on a row, the acceleration is moves (v + force).
+TEST(PlaneRows, AddForcesAndHoldSites) {
+  constexpr std::size_t n = 11;
+  std::vector<double> u(n + 4, 0.3), a(n), v(n), sine(n), cosine(n), force(n), moves(n, 1), contact2(n, 0.49);
+  for (std::size_t i = 0; i < n; ++i) force[i] = 0.1 * static_cast<double>(i);
+  moves[4] = 0;
+  const double* const row = u.data() + 2;
+  const plane::RowShape shape{.sites = n, .per_hx2 = 1, .per_hy2 = 1};
+  for (const double* contact : {static_cast<const double*>(nullptr), static_cast<const double*>(contact2.data())}) {
+    plane::accelerate(shape, {row, row, row, row, row}, {.contact2 = contact}, {a.data(), sine.data(), cosine.data()});
+    for (const bool loaded : {false, true})
+      for (const bool held : {false, true}) {
+        plane::accelerate(shape, {row, row, row, row, row},
+                          {contact, loaded ? force.data() : nullptr, held ? moves.data() : nullptr},
+                          {v.data(), sine.data(), cosine.data()});
+        for (std::size_t i = 0; i < n; ++i)
+          EXPECT_DOUBLE_EQ(v[i], (held ? moves[i] : 1) * (a[i] + (loaded ? force[i] : 0))) << i;
+      }
   }
 }
 

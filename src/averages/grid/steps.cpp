@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -100,15 +101,24 @@ void GridSteps::release() {
     if (is_free(cell)) held_[cell] = 0;
 }
 
+/// F at the centre of a cell. If it does not change, its formula is called once.
+double GridSteps::forcing_at(std::size_t cell, double t) {
+  const auto find = [&] {
+    const Point at = cells_.centre(cell);
+    return problem_.forcing(at.x, at.y, t);
+  };
+  if (!problem_.steady_forcing) return find();
+  if (std::isnan(steady_forcing_[cell])) steady_forcing_[cell] = find();
+  return steady_forcing_[cell];
+}
+
 void GridSteps::add_loads(double t) {
   motion_.supply = 0;
   if (held_.empty() && !problem_.forcing) return;
+  if (problem_.steady_forcing) steady_forcing_.resize(rate_.action.size(), std::numeric_limits<double>::quiet_NaN());
   motion_.supply = equations_.sum_over_trains([&](std::size_t, std::size_t cell) {
     double load = held_.empty() ? 0 : held_[cell];
-    if (problem_.forcing) {
-      const Point at = cells_.centre(cell);
-      load += problem_.forcing(at.x, at.y, t);
-    }
+    if (problem_.forcing) load += forcing_at(cell, t);
     rate_.action[cell] += load;
     return motion_.now.slip[cell] > 0 ? load * rate_.slip[cell] * cells_.hx * cells_.hy : 0;
   });

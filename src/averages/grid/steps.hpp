@@ -75,6 +75,7 @@ class GridSteps {
   void hold();
   void refuse_steep_edge(std::size_t cell) const;
   void release();
+  double forcing_at(std::size_t cell, double t);
   void add_loads(double t);
   void find_strengths();
   void find_forces();
@@ -105,7 +106,8 @@ class GridSteps {
   bool sticks_;               ///< friction has strength at rest
   std::size_t each_ = 0;      ///< state variables of a cell
   std::vector<char> patch_;   ///< whether each cell lies in the nucleation patch; empty: none
-  std::vector<double> held_;  ///< static load; empty: none
+  std::vector<double> held_;            ///< static load; empty: none
+  std::vector<double> steady_forcing_;  ///< NaN where it is not known yet
   Averages rate_, old_;
   std::vector<double> free_;  ///< wave action of a stage, without friction at first
 

@@ -25,15 +25,17 @@ void combine3(std::size_t size, std::array<double, 3> c, std::array<const double
 void combine5(std::size_t size, std::array<double, 5> c, std::array<const double*, 5> x, double* sum);
 
 /// Sum or extremum of value(i) over an array, by `join`, from `start`: in eight lanes, in the same order on every
-/// machine.
+/// machine. The calls of `value` do not depend on each other.
 template <class Value, class Join>
 inline double reduce(std::size_t size, double start, Value value, Join join) {
   constexpr std::size_t lanes = 8;
   double part[lanes];
   for (double& p : part) p = start;
   std::size_t i = 0;
-  for (; i + lanes <= size; i += lanes)
+  for (; i + lanes <= size; i += lanes) {
+    SLIPFRONT_INDEPENDENT
     for (std::size_t j = 0; j < lanes; ++j) part[j] = join(part[j], value(i + j));
+  }
   for (; i < size; ++i) part[0] = join(part[0], value(i));
   for (std::size_t j = 1; j < lanes; ++j) part[0] = join(part[0], part[j]);
   return part[0];

@@ -39,6 +39,7 @@ struct Problem {
   std::function<double(double x, double y)> fixed;
   friction::Friction friction;
   std::function<double(double x, double y, double t)> forcing;  ///< F; null: none
+  bool steady_forcing = false;                                  ///< F does not depend on t
   std::function<double(double x, double y)> contact;            ///< relative contact ratio a > 0; null: 1
   bool hold = false;  ///< whether a static load balances the initial state, which is at rest then
   std::optional<Nucleation> nucleation;

@@ -82,8 +82,11 @@ std::ptrdiff_t Stepper::inside(std::ptrdiff_t row) const {
 
 /// Finds the acceleration of a row of u.
 void Stepper::accelerate_row(const std::vector<double>& u, std::ptrdiff_t row, const Acceleration& result) const {
-  accelerate(shape_, rows_around(u, sites_, row), row_of(sites_.contact2, sites_, row), result);
-  load(sites_.nx, row_of(sites_.moves, sites_, row), row_of(loads_.force(), sites_, row), result.v);
+  accelerate(shape_, rows_around(u, sites_, row),
+             {.contact2 = row_of(sites_.contact2, sites_, row),
+              .force = row_of(loads_.force(), sites_, row),
+              .moves = row_of(sites_.moves, sites_, row)},
+             result);
 }
 
 /// Calls each(row, acceleration) for all rows, on several threads.

@@ -17,7 +17,7 @@ constexpr double least = 1e-100;
 struct HalfAngle {
   double sine, cosine;
 
-  explicit HalfAngle(double u) {
+  [[gnu::always_inline]] explicit HalfAngle(double u) {
     constexpr double magic = 6755399441055744.0;  // adding it rounds to a whole number
     const double turns = (u * 0.15915494309189535 + magic) - magic;
     const double h = 0.5 * ((u - turns * 6.28318530717958623) - turns * 2.4492935982947064e-16), z = h * h;
@@ -34,8 +34,8 @@ struct HalfAngle {
     sine = h + h * (z * polynomial(s, z));
     cosine = 1 + z * polynomial(c, z);
   }
-  double sin_u() const { return 2 * sine * cosine; }
-  double one_minus_cos_u() const { return 2 * sine * sine; }
+  [[gnu::always_inline]] double sin_u() const { return 2 * sine * cosine; }
+  [[gnu::always_inline]] double one_minus_cos_u() const { return 2 * sine * sine; }
 };
 
 }  // namespace
@@ -67,9 +67,10 @@ struct Laplacian {
 // Each loop has one version with a varying contact, or held sites, and one without: a test in the loop would make it
 // load from null.
 
-template <bool varying>
-[[gnu::always_inline]] inline void accelerate(const RowShape& shape, const FiveRows& u, const double* contact2,
+template <bool varying, bool loaded, bool held>
+[[gnu::always_inline]] inline void accelerate(const RowShape& shape, const FiveRows& u, const RowForces& forces,
                                               const Acceleration& result) {
+  const double *const contact2 = forces.contact2, *const force = forces.force, *const moves = forces.moves;
   const Laplacian bend(shape, u);
   double *const v = result.v, *const sine = result.sine, *const cosine = result.cosine;
   const auto sites = static_cast<std::ptrdiff_t>(shape.sites);
@@ -83,8 +84,29 @@ template <bool varying>
     }
     sine[i] = s;
     cosine[i] = c;
-    v[i] = bend(i) - s;
+    double a = bend(i) - s;
+    if constexpr (loaded) a += force[i];
+    if constexpr (held) a *= moves[i];
+    v[i] = a;
   }
+}
+
+template <bool varying, bool loaded>
+[[gnu::always_inline]] inline void accelerate(const RowShape& shape, const FiveRows& u, const RowForces& forces,
+                                              const Acceleration& result) {
+  if (forces.moves)
+    accelerate<varying, loaded, true>(shape, u, forces, result);
+  else
+    accelerate<varying, loaded, false>(shape, u, forces, result);
+}
+
+template <bool varying>
+[[gnu::always_inline]] inline void accelerate(const RowShape& shape, const FiveRows& u, const RowForces& forces,
+                                              const Acceleration& result) {
+  if (forces.force)
+    accelerate<varying, true>(shape, u, forces, result);
+  else
+    accelerate<varying, false>(shape, u, forces, result);
 }
 
 template <bool held>
@@ -125,18 +147,28 @@ SLIPFRONT_CLONES void laplacian(const RowShape& shape, const FiveRows& rows, dou
   for (std::ptrdiff_t i = 0; i < sites; ++i) result[i] = bend(i);
 }
 
-SLIPFRONT_CLONES void accelerate(const RowShape& shape, const FiveRows& u, const double* contact2,
+SLIPFRONT_CLONES void accelerate(const RowShape& shape, const FiveRows& u, const RowForces& forces,
                                  const Acceleration& result) {
-  if (contact2)
-    accelerate<true>(shape, u, contact2, result);
+  if (forces.contact2)
+    accelerate<true>(shape, u, forces, result);
   else
-    accelerate<false>(shape, u, contact2, result);
+    accelerate<false>(shape, u, forces, result);
 }
 
-SLIPFRONT_CLONES void load(std::size_t sites, const double* moves, const double* force, double* v) {
-  if (force)
-    for (std::size_t i = 0; i < sites; ++i) v[i] += force[i];
-  if (moves) multiply(sites, moves, v);
+SLIPFRONT_CLONES void free_speeds(std::size_t sites, double dt, const double* before, const double* after,
+                                  double* free) {
+  const double per_two_dt = 0.5 / dt;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < sites; ++i) free[i] = std::fabs(after[i] - before[i]) * per_two_dt;
+}
+
+SLIPFRONT_CLONES double take_speeds(std::size_t sites, double dt, const double* free, const double* speed,
+                                    const double* before, double* after) {
+  const double two_dt = 2 * dt;
+  return 2 * sum(sites, [=](std::size_t i) {
+           after[i] = before[i] + std::copysign(two_dt * speed[i], after[i] - before[i]);
+           return (free[i] - speed[i]) * speed[i];
+         });
 }
 
 SLIPFRONT_CLONES void step_row(const RowShape& shape, double dt, const double* u, const Acceleration& now,
@@ -157,11 +189,11 @@ SLIPFRONT_CLONES double rub_viscous(std::size_t sites, double dt, const double* 
                                     const double* before, double* after) {
   const double *const v = rates.v, *const v_old = rates.v_old, *const v_tt = rates.v_tt;
   const double half = 0.5 * dt, per_dt = 1 / dt, per_two_dt = 0.5 / dt, excess = dt * dt / 6;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < sites; ++i) after[i] = before[i] + (after[i] - before[i]) / (1 + half * viscous[i]);
   return dt * sum(sites, [=](std::size_t i) {
+           const double step = (after[i] - before[i]) / (1 + half * viscous[i]);
+           after[i] = before[i] + step;
            const double v_t = (v[i] - v_old[i]) * per_dt + half * v_tt[i];
-           const double u_t = (after[i] - before[i]) * per_two_dt - excess * v_t;
+           const double u_t = step * per_two_dt - excess * v_t;
            return viscous[i] * u_t * u_t;
          });
 }

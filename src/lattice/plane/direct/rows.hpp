@@ -22,15 +22,18 @@ using FiveRows = std::array<const double*, 5>;
 /// result = f_xx + f_yy of the middle row, which reads two sites on each side of it.
 void laplacian(const RowShape& shape, const FiveRows& f, double* result);
 
-/// Finds the acceleration v = u_xx + u_yy - a^2 sin u of the middle row, and the sine and the cosine in it.
-/// `contact2`, a^2, may be null.
+/// What acts on a row of sites. Each may be null.
+struct RowForces {
+  const double* contact2 = nullptr;  ///< a^2
+  const double* force = nullptr;     ///< added to the acceleration
+  const double* moves = nullptr;     ///< 0 where the interface is held, else 1
+};
+/// Finds the acceleration v = moves (u_xx + u_yy - a^2 sin u + force) of the middle row, and the sine and the cosine in
+/// it.
 struct Acceleration {
   double *v, *sine, *cosine;  ///< sine: a^2 sin u; cosine: a^2 cos u
 };
-void accelerate(const RowShape& shape, const FiveRows& u, const double* contact2, const Acceleration& result);
-
-/// v = moves (v + force): the interface is held where `moves` is 0. Both may be null.
-void load(std::size_t sites, const double* moves, const double* force, double* v);
+void accelerate(const RowShape& shape, const FiveRows& u, const RowForces& forces, const Acceleration& result);
 
 /// One step without friction from the acceleration of the middle row. `rated` are accelerations of five rows whose
 /// change in time counts. `old` has u(t - dt) on entry and u(t + dt) on return. `v_tt` becomes v_tt. `moves` may be
@@ -49,6 +52,12 @@ struct Rates {
 /// Slows a step from u(t - dt), `before`, to u(t + dt), `after`, by the implicit friction C D, D = (after - before) /
 /// (2 dt). Returns its work over dt, which is that of u_t = D - dt^2 / 6 v_t.
 double rub_viscous(std::size_t sites, double dt, const double* viscous, const Rates& rates, const double* before,
+                   double* after);
+
+/// Speeds of a step over 2 dt before friction; and the step that friction leaves at other speeds. Returns the work of
+/// friction over dt, which is (free - speed) / (dt / 2).
+void free_speeds(std::size_t sites, double dt, const double* before, const double* after, double* free);
+double take_speeds(std::size_t sites, double dt, const double* free, const double* speed, const double* before,
                    double* after);
 
 /// Work of a force in the middle of a step from `before` to `after`, over two steps.

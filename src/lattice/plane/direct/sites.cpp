@@ -38,7 +38,7 @@ void Loads::hold(const std::vector<double>& acceleration) {
 
 void Loads::find(double time) {
   const bool released = problem_.nucleation_has_begun(time);
-  if (is_known_ && released == released_ && !problem_.forcing) return;
+  if (is_known_ && released == released_ && (!problem_.forcing || problem_.steady_forcing)) return;
   is_known_ = true;
   released_ = released;
   force_ = held_;
@@ -94,17 +94,12 @@ double SiteFriction::absorb(std::size_t j, const double* before, double* after) 
 double SiteFriction::rub_by_law(std::size_t j, bool began, const double* before, double* after) const {
   const std::size_t n = sites_.nx;
   std::vector<double> free(n), speed(n);
-  for (std::size_t i = 0; i < n; ++i) free[i] = std::fabs(after[i] - before[i]) / (2 * dt_);
+  free_speeds(n, dt_, before, after, free.data());
   friction_.loops().speeds_after(n, free.data(), dt_ / 2, states_of(j), speed.data());
   const char* const patch = began && !patch_.empty() ? &patch_[sites_.at(0, j)] : nullptr;
-  double work = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (patch && patch[i] != 0) continue;
-    const double sign = std::copysign(1.0, after[i] - before[i]);
-    after[i] = before[i] + 2 * dt_ * sign * speed[i];
-    work += 2 * (free[i] - speed[i]) * speed[i];  // f = (free - speed) / (dt / 2), over the time dt
-  }
-  return work;
+  for (std::size_t i = 0; patch != nullptr && i < n; ++i)
+    if (patch[i] != 0) speed[i] = free[i];  // nothing holds the patch
+  return take_speeds(n, dt_, free.data(), speed.data(), before, after);
 }
 
 void SiteFriction::age(std::size_t j, const double* now, const double* after) {

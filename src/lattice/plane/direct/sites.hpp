@@ -104,7 +104,7 @@ class Loads {
   const Sites& sites_;
   std::vector<char> patch_;
   std::vector<double> held_, force_;
-  bool is_known_ = false;  ///< whether `force_` is that of the static load, and `released_` of the patch
+  bool is_known_ = false;  ///< whether `force_` is that of the last time, and `released_` of the patch
   bool released_ = false;
 };
 

@@ -1,7 +1,9 @@
 #include "lattice/chain/explicit/levels/kernel.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 #include "math/constants.hpp"
@@ -319,14 +321,14 @@ SLIPFRONT_CLONES void shorten_steps(double most, const double* now, double* next
 
 SLIPFRONT_CLONES bool free_speeds(double per_step, const double* from, const double* next, double* free,
                                   std::size_t size) {
-  std::size_t moving = 0;
+  std::uint64_t bits = 0;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) {
     const double step = std::fabs(next[j] - from[j]), scale = std::fabs(from[j]);
     free[j] = step <= 8 * 2.2e-16 * (scale > 1e-3 ? scale : 1e-3) ? 0.0 : step * per_step;
-    moving += free[j] == 0 ? 0u : 1u;
+    bits |= std::bit_cast<std::uint64_t>(free[j]);
   }
-  return moving != 0;
+  return bits != 0;
 }
 
 SLIPFRONT_CLONES void take_speeds(double per_step, double per_weight, const double* from, const double* free,
