@@ -12,6 +12,7 @@ namespace slipfront::chain {
 namespace {
 
 constexpr std::size_t together = 64;  ///< sites in one pass of the friction loops
+constexpr double accuracy = 1e-6;     ///< relative change of a velocity that has converged
 
 }  // namespace
 
@@ -167,7 +168,7 @@ ImplicitStep::Outcome ImplicitStep::correct(double dt) {
       continue;
     }
     if (springs_.held(j)) continue;
-    converged = converged && (size <= 1e-6 * std::fabs(w) || size * std::fabs(slope_[j]) <= rounding_);
+    converged = converged && (size <= accuracy * std::fabs(w) || size * std::fabs(slope_[j]) <= rounding_);
     const bool curved = forces_.rubs() && size > 0.3 * std::fabs(w) && friction_law_.steep_at_rest();
     w = curved ? velocity_under_friction(j, change, dt) : w + change;
     failed = failed || !std::isfinite(w);
@@ -337,10 +338,13 @@ void ImplicitStep::take(ChainState& m, double dt) const {
 
 double ImplicitStep::hardest_position() const {
   std::size_t site = 0;
+  const auto imbalance = [this](std::size_t j) {
+    return std::fabs(right_[j]) <= accuracy * std::fabs(w_[j]) ? 0 : std::fabs(right_[j] * slope_[j]);
+  };
   for (std::size_t j = 0; j < sites() && std::isfinite(force_[site]); ++j)
-    if (!(std::fabs(force_[j]) < HUGE_VAL) || std::fabs(w_[j]) > std::fabs(w_[site])) site = j;
-  const double speed = std::isfinite(force_[site]) ? std::fabs(w_[site]) : HUGE_VAL;
-  const std::vector<double> all = forces_.ranks().joined({speed, forces_.x(site)});
+    if (!(std::fabs(force_[j]) < HUGE_VAL) || imbalance(j) > imbalance(site)) site = j;
+  const double most = std::isfinite(force_[site]) ? imbalance(site) : HUGE_VAL;
+  const std::vector<double> all = forces_.ranks().joined({most, forces_.x(site)});
   std::size_t hardest = 0;
   for (std::size_t i = 0; i < all.size(); i += 2)
     if (all[i] > all[hardest]) hardest = i;
