@@ -24,7 +24,7 @@ CASES = HERE.parent / "cases"
 STYLE = HERE.parent / "python" / "slipfront" / "slipfront.mplstyle"
 FRICTION, RINGS = CASES / "plane-friction.toml", CASES / "plane-rings.toml"
 WIDE = {"plane.left": -3.8, "plane.right": 3.8, "plane.bottom": -3.8, "plane.top": 3.8}
-FREE = {"friction.coefficient": 0, "time.end": 8, "output.every": 8, "plane.cells": 100} | WIDE
+FREE = {"friction.coefficient": 0, "time.end": 6, "output.every": 6, "plane.cells": 100} | WIDE
 LINES = {"averaged": (), "every line, 17": ("--direct", "--set", "chain.scale=40"), "every line, 35": ("--direct", "--set", "chain.scale=80")}
 
 

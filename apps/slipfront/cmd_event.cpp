@@ -79,7 +79,8 @@ void add_source_options(CommandLine& command, EventArguments& arguments) {
 void add_input_options(CommandLine& command, EventArguments& a) {
   command.option("FILE", "", a.files,
                  "Events: .toml (one), .csv (a catalogue), USGS .json, a finite-fault model (.fsp, SRF, .param, .rupt, "
-                 "FFM.geojson, CSV of subfaults), - for stdin; none: the shipped catalogue");
+                 "FFM.geojson, CSV of subfaults), a folder with sources of one event, - for stdin; none: the shipped "
+                 "catalogue");
   command.option("--columns", "MAP.toml", a.column_map,
                  "TOML file that maps the titles of CSV columns to quantities: [columns] \"VR\" = \"rupture_velocity "
                  "km/s\"; also decimal, separator, skip_lines, missing");

@@ -24,9 +24,10 @@ std::vector<EventText> texts_of(const EventArguments& a) {
   if (a.files.empty()) return {{"catalogue.csv", std::string(shipped_catalogue)}};
   std::vector<EventText> all;
   for (const std::string& file : a.files) try {
-      const bool standard_input = file == "-";
-      all.push_back({standard_input ? "stdin" : file,
-                     standard_input ? slipfront::record::read_standard_input() : slipfront::record::read_text(file)});
+      if (file == "-")
+        all.push_back({"stdin", slipfront::record::read_standard_input()});
+      else
+        for (EventText& text : slipfront::run::texts_of(file)) all.push_back(std::move(text));
     } catch (const slipfront::FileError& error) {
       all.push_back({file, {}, error.what()});
     }

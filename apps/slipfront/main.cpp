@@ -1,5 +1,3 @@
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -38,7 +36,7 @@ void add_common_options(CommandLine& command, CommonOptions& options, bool with_
     options.threads = slipfront::sensible_threads(options.threads);
     if (options.threads > 0) return;  // else the cores of this machine, shared by the ranks on it
     const long ranks = std::lround(the_ranks->size() * the_ranks->share_of_machine());
-    options.threads = std::max(1, omp_get_max_threads() / static_cast<int>(std::max(1L, ranks)));
+    options.threads = std::max(1, slipfront::usable_cores() / static_cast<int>(std::max(1L, ranks)));
   });
 }
 

@@ -1,5 +1,5 @@
-// Memory can run out where no code catches the exception: in static objects of a library before main, or on a thread of
-// OpenMP. The program must then end as in any other lack of memory, with one line and the usual exit code.
+// Memory can run out where no code catches the exception: in static objects of a library before main, or on another
+// thread. The program must then end as in any other lack of memory, with one line and the usual exit code.
 
 #include <unistd.h>
 

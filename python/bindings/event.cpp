@@ -70,7 +70,8 @@ run::CatalogueScenario scenario_of(const std::vector<Source>& sources, const py:
   run::CatalogueScenario scenario;
   scenario.command_line = "slipfront event";
   for (const auto& [content, name, is_path] : sources) {
-    scenario.texts.push_back({name, is_path ? record::read_text(name) : content});
+    for (run::EventText& text : is_path ? run::texts_of(name) : std::vector<run::EventText>{{name, content}})
+      scenario.texts.push_back(std::move(text));
     scenario.command_line += " " + name;
   }
   if (const std::string map = text("columns_file"); !map.empty())

@@ -134,4 +134,5 @@ void bind_runs(py::module_& m) {
   m.def("check_chain", check_chain);
   m.def("plane", run_plane);
   m.def("check_plane", check_plane);
+  m.def("is_fault_model", run::is_fault_model);
 }

@@ -30,8 +30,11 @@ SIGMAS = 1.6448536269514722
 
 def _velocity(distance, time, distance_error, time_error):
     """Returns a velocity and its 5 and 95 %. The quotient of two normal variables has the bounds of
-    Fieller; inf where the time may be 0."""
-    velocity = distance / time if time else math.inf
+    Fieller; inf where the time may be 0. If it is 0, there is no velocity but only a lower bound,
+    or nothing if the errors are 0, too."""
+    if not time and not time_error:
+        return math.nan, math.nan, math.nan
+    velocity = distance / time if time else math.nan
     z = SIGMAS**2
     a, b, c = (
         time**2 - z * time_error**2,
@@ -40,7 +43,8 @@ def _velocity(distance, time, distance_error, time_error):
     )
     root = math.sqrt(max(b * b - a * c, 0.0))
     if a <= 0:  # the time may be 0
-        return velocity, abs(c / (b + math.copysign(root, b))) if b else 0.0, math.inf
+        least = c / (b + root) if c > 0 else 0.0  # b > 0: distance and time are positive
+        return velocity, least, math.inf
     low, high = sorted((abs((b - root) / a), abs((b + root) / a)))
     return velocity, 0.0 if c <= 0 else low, high
 
@@ -92,7 +96,8 @@ def arrivals(table, *, columns=None):
     xarray.Dataset over `front` with event, front_begin, front_end and position (m), and velocity
     (m/s) with velocity_interval, which holds 90 %. The fronts of an event are those between
     neighbouring gauges and, last, that along all gauges, if it runs in one direction. The end of an
-    interval is infinite if the gauges do not exclude that the front arrives at both at once.
+    interval is infinite if the gauges do not exclude that the front arrives at both at once. The
+    velocity is NaN if it does; the attribute warnings states the reason.
 
     Raises
     ------
@@ -134,6 +139,12 @@ def arrivals(table, *, columns=None):
         )
     if not any(error.any() for error in errors):
         notes.append("the arrivals have no errors: the intervals are empty")
+    notes += [
+        f"event {shown(event)}, {begin:.6g} to {end:.6g} m: equal arrival times, but no front is"
+        f" infinitely fast: no velocity{', only a lower bound' if low == low else ''}"
+        for event, begin, end, _, velocity, low, _ in rows
+        if math.isnan(velocity)
+    ]
     event, begin, end, position, velocity, low, high = zip(*rows)
 
     def number(values, long_name, unit="m", dims="front"):
@@ -175,7 +186,7 @@ def csv_of_arrivals(fronts):
             )
         )
     ):
-        cell = f"{velocity:.6g}"
+        cell = f"{velocity:.6g}" if velocity == velocity else ""
         if low < high:
             cell = (
                 f"{cell} */ {math.sqrt(high / low) ** (1 / SIGMAS):.4g}"

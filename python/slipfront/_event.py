@@ -93,7 +93,8 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     Parameters
     ----------
     events : path, text, dict, DataFrame or list of these, optional
-        A .toml or .csv file or a finite-fault model, or its text (docs/events.md). A dict is nested
+        A .toml or .csv file, a finite-fault model, or a folder with sources of one event; or the
+        text of a file (docs/events.md). A dict is nested
         like the TOML, {"event": {...}, "medium": {...}}, or flat with the columns of a catalogue,
         {"name": ..., "rupture_velocity": "3 km/s", ...}. The values of a flat dict are those of one
         event, or lists of one length. A DataFrame has these columns. The default is the catalogue

@@ -4,6 +4,7 @@ import json
 import pathlib
 import tomllib
 
+from . import _slipfront
 from ._arguments import Arguments, chosen_units, progress, put
 from ._optional import import_optional
 
@@ -12,9 +13,6 @@ FRAMES = 75
 #: The rock for scales in SI units, as in the paper: P-wave speed in m/s, Poisson's ratio, shear
 #: modulus in Pa.
 ROCK = {"p_wave_speed": 6000.0, "poisson_ratio": 0.3, "shear_modulus": 30e9}
-
-#: Endings of finite-fault models, by which they differ from results.
-MODELS = (".fsp", ".srf", ".param", ".rupt", ".geojson")
 
 
 def content_of(scenario):
@@ -32,7 +30,7 @@ def run(scenario, si, direct):
     import slipfront
 
     content = content_of(scenario)
-    on_plane = "plane" in content or scenario.lower().endswith(MODELS)
+    on_plane = "plane" in content or _slipfront.is_fault_model(scenario)
     if direct and not on_plane:
         raise ValueError(f"{scenario}: --direct: not a scenario on a plane; allowed: with the "
                          "table [plane]")
@@ -56,8 +54,8 @@ def content_to_show(source, si=None, direct=False):
     """Returns the pulse or rupture of a file, in SI units if `si`. Runs a scenario or model."""
     from .plots import files
 
-    shown = run(source, si,
-                direct) if source.lower().endswith((".toml", *MODELS)) else files.read(source, si)
+    is_input = source.lower().endswith(".toml") or _slipfront.is_fault_model(source)
+    shown = run(source, si, direct) if is_input else files.read(source, si)
     on_plane = is_plane(shown)
     is_pulse = {"W", "Sigma", "k",
                 "x_bounds"} <= set(shown.variables) and set(shown["k"].dims) == {"time", "x"}

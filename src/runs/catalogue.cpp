@@ -1,6 +1,7 @@
 #include "runs/catalogue.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <utility>
@@ -61,27 +62,64 @@ struct Entries {
   CatalogueColumns columns;
 };
 
-/// Reads the entries of all texts. A text that could not be read gives one entry, with the reason.
+/// Reads the entries of a text. One that could not be read gives one entry, with the reason.
+void read_entries(const EventText& t, const CatalogueScenario& scenario, const medium::Defaults& defaults,
+                  Entries& read) {
+  if (!t.error.empty()) {
+    read.columns.unreadable = read.columns.unreadable || t.folder.empty();
+    read.all.push_back(bad_entry(t.name, Complaint{.problem = t.error}));
+    return;
+  }
+  const std::size_t first = read.all.size();
+  catalogue::TableNotes notes = catalogue::read_events(
+      t.text, t.name, [&](Entry&& entry) { read.all.push_back(std::move(entry)); }, scenario.table);
+  const auto entries = std::span<const Entry>(read.all).subspan(first);
+  if (auto refused = scenario.strict ? why_refused(t.name, entries, notes, defaults) : std::nullopt) {
+    read.all.resize(first);
+    read.all.push_back(bad_entry(t.name, std::move(*refused)));
+    return;
+  }
+  add_once(read.columns.ignored, notes.ignored);
+  add_once(read.columns.ignored_quantities, notes.ignored_quantities);
+  if (!notes.ignored.empty() || !notes.notes.empty()) read.columns.files.push_back({t.name, std::move(notes)});
+}
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+/// Makes the entries from `first` on, which come from one folder, sources of one event, with the name and the date of
+/// the first that has a date. Removes those with errors and names their files in one warning, unless all have errors.
+void unite(Entries& read, std::size_t first, const std::string& folder) {
+  const auto begin = read.all.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto end = std::stable_partition(begin, read.all.end(), [](const Entry& entry) { return !entry.error; });
+  if (end == begin) return;
+  std::string not_read;
+  for (auto bad = end; bad != read.all.end(); ++bad)
+    not_read += (not_read.empty() ? "; not read: " : ", ") + file_name(bad->observation.file);
+  read.all.erase(end, read.all.end());
+  const auto named =
+      std::find_if(begin, read.all.end(), [](const Entry& entry) { return !entry.observation.date.empty(); });
+  const catalogue::Observation event = (named == read.all.end() ? begin : named)->observation;
+  const std::string note =
+      "sources of one event in " + folder + ": " + std::to_string(read.all.size() - first) + not_read;
+  for (auto source = begin; source != read.all.end(); ++source) {
+    catalogue::Observation& o = source->observation;
+    source->event = folder;
+    o.name = file_name(o.file) + ": " + event.name;
+    if (o.date.empty()) o.date = event.date;
+    o.warnings.push_back(note);
+  }
+}
+
+/// Reads the entries of all texts.
 Entries read_all(const CatalogueScenario& scenario, const medium::Defaults& defaults) {
   Entries read;
-  for (const EventText& t : scenario.texts) {
-    if (!t.error.empty()) {
-      read.columns.unreadable = true;
-      read.all.push_back(bad_entry(t.name, Complaint{.problem = t.error}));
-      continue;
-    }
-    const std::size_t first = read.all.size();
-    catalogue::TableNotes notes = catalogue::read_events(
-        t.text, t.name, [&](Entry&& entry) { read.all.push_back(std::move(entry)); }, scenario.table);
-    const auto entries = std::span<const Entry>(read.all).subspan(first);
-    if (auto refused = scenario.strict ? why_refused(t.name, entries, notes, defaults) : std::nullopt) {
-      read.all.resize(first);
-      read.all.push_back(bad_entry(t.name, std::move(*refused)));
-      continue;
-    }
-    add_once(read.columns.ignored, notes.ignored);
-    add_once(read.columns.ignored_quantities, notes.ignored_quantities);
-    if (!notes.ignored.empty() || !notes.notes.empty()) read.columns.files.push_back({t.name, std::move(notes)});
+  std::size_t first = 0;  // entry of a folder
+  for (std::size_t i = 0; i < scenario.texts.size(); ++i) {
+    const std::string& folder = scenario.texts[i].folder;
+    if (i == 0 || folder != scenario.texts[i - 1].folder) first = read.all.size();
+    read_entries(scenario.texts[i], scenario, defaults, read);
+    const bool is_last = i + 1 == scenario.texts.size() || folder != scenario.texts[i + 1].folder;
+    if (!folder.empty() && is_last && !scenario.strict) unite(read, first, folder);
   }
   finite_fault::warn_of_other_sources(read.all, defaults);
   return read;
@@ -175,6 +213,25 @@ class Evaluation {
 };
 
 }  // namespace
+
+std::vector<EventText> texts_of(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return {{path, record::read_text(path)}};
+  std::vector<EventText> texts;
+  for (const auto& file : std::filesystem::directory_iterator(path, ignored)) {
+    EventText text{.name = file.path().string(), .text = {}, .folder = path};
+    if (!file.is_regular_file(ignored)) text.error = text.name + ": is not a regular file";
+    if (text.error.empty()) try {
+        text.text = record::read_text(text.name);
+      } catch (const FileError& error) {
+        text.error = error.what();
+      }
+    texts.push_back(std::move(text));
+  }
+  if (texts.empty()) throw FileError(path + ": a folder without files that can be read");
+  std::sort(texts.begin(), texts.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return texts;
+}
 
 CataloguePlan plan_catalogue(const CatalogueScenario& scenario, int threads, bool with_file) {
   CataloguePlan plan{.entries = {},

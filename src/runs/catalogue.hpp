@@ -21,8 +21,12 @@ namespace slipfront::run {
 struct EventText {
   std::string name;
   std::string text;
-  std::string error = {};  ///< why the file could not be read; empty if it was read
+  std::string error = {};   ///< why the file could not be read; empty if it was read
+  std::string folder = {};  ///< its texts are sources of one event; empty for a file that the user names
 };
+
+/// The text of a file, or those of all files in a folder. \throws FileError if there are none.
+std::vector<EventText> texts_of(const std::string& path);
 
 /// Events, and how each is evaluated.
 struct CatalogueScenario {

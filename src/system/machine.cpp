@@ -1,6 +1,9 @@
 #include "system/machine.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <thread>
 
@@ -76,9 +79,19 @@ double usable_memory() {
 #endif
 }
 
-int sensible_threads(int wanted) {
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  return std::min(wanted, std::max(16, 2 * cores));
+namespace {
+
+int cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+}  // namespace
+
+int usable_cores() {
+  const char* const allowed = std::getenv("OMP_NUM_THREADS");
+  int most = 0;
+  if (allowed != nullptr) std::from_chars(allowed, allowed + std::strlen(allowed), most);
+  return most > 0 ? std::min(most, cores()) : cores();
 }
+
+int sensible_threads(int wanted) { return std::min(wanted, std::max(16, 2 * cores())); }
 
 }  // namespace slipfront

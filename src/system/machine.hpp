@@ -10,8 +10,10 @@ namespace slipfront {
 /// least. Infinity where nothing is known.
 double usable_memory();
 
-/// `wanted` threads, but no more than can be of use: many that do nothing take memory, and the OpenMP runtime ends the
-/// program when one cannot be started.
+/// The processor cores that this process may use, but no more than the environment variable OMP_NUM_THREADS allows.
+int usable_cores();
+
+/// `wanted` threads, but no more than can be of use: many that do nothing take memory.
 int sensible_threads(int wanted);
 
 }  // namespace slipfront

@@ -16,7 +16,7 @@ void for_each_parallel(std::size_t count, int threads, const std::function<void(
                        std::size_t few = 256);
 
 /// Starts up to `wanted` threads that call `body`, which must not throw. If the machine provides fewer, those that have
-/// started are returned; OpenMP would end the program. `body` must exist until they have been joined.
+/// started are returned. `body` must exist until they have been joined.
 std::vector<std::jthread> start_threads(std::size_t wanted, const std::function<void()>& body);
 
 }  // namespace slipfront

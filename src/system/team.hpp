@@ -3,8 +3,10 @@
 /// Loops on a team of threads that is awake already, and the one way by which exceptions leave loops on several
 /// threads.
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <mutex>
 
@@ -32,11 +34,18 @@ class FirstException {
   std::size_t index_ = std::numeric_limits<std::size_t>::max();
 };
 
-/// Calls each(i) for every i < count. The `threads` OpenMP threads take `together` of them in turn, or one contiguous
-/// part each if that is 0. It is the same part at each call, which the thread then finds in its cache. The threads wait
-/// between calls, which makes short loops worthwhile.
+/// Calls part(k), which must not throw, for every k < parts, each on a thread of its own: part 0 on that of the caller.
+/// The other threads wait for the next call, at first awake, because a loop is often followed by another. Where the
+/// machine provides fewer threads, or the team is busy with another call, the caller does the parts that are left.
+void on_team(int parts, const std::function<void(int)>& part);
+
+/// Calls each(i) for every i < count. `threads` threads take `together` of them in turn, or one contiguous part each if
+/// that is 0. It is the same part at each call, which the thread then finds in its cache.
 template <class Each>
 void for_each_on_team(std::size_t count, int threads, const Each& each, long together = 0) {
+#ifdef __EMSCRIPTEN__  // a page has one thread
+  threads = 1;
+#endif
   if (threads <= 1) {
     for (std::size_t i = 0; i < count; ++i) each(i);
     return;
@@ -44,16 +53,16 @@ void for_each_on_team(std::size_t count, int threads, const Each& each, long tog
   FirstException first;
   const auto n = static_cast<long>(count);
   if (together == 0) together = (n + threads - 1) / threads;
-#ifdef _OPENMP
-#pragma omp parallel for num_threads(threads) schedule(static, together)
-#endif
-  for (long i = 0; i < n; ++i) {
-    try {
-      each(static_cast<std::size_t>(i));
-    } catch (...) {
-      first.keep(static_cast<std::size_t>(i));
-    }
-  }
+  on_team(threads, [&](int part) {
+    for (long begin = part * together; begin < n; begin += threads * together)
+      for (long i = begin; i < std::min(begin + together, n); ++i) {
+        try {
+          each(static_cast<std::size_t>(i));
+        } catch (...) {
+          first.keep(static_cast<std::size_t>(i));
+        }
+      }
+  });
   first.rethrow();
 }
 

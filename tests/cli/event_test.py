@@ -6,6 +6,7 @@ import json
 import os
 import signal
 import subprocess
+import tempfile
 import unittest
 
 from support import PATIENCE, PROGRAM, SANITIZED, SOURCE, CommandLine, run, until_it_answers, until_it_has_worked
@@ -187,9 +188,37 @@ class Event(CommandLine):
         self.assertIn("sources of loma, 1989-10-18, disagree: stress from 81.1 MPa", table)
         self.assertIn("sources of parkfield, 2004-09-28, disagree: stress from 4.74 MPa", table)
 
+    def folder_of(self, texts):
+        """Returns a new folder with these texts by their names."""
+        folder = tempfile.mkdtemp(dir=os.path.dirname(self.file("x", "")))
+        for name, text in texts.items():
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
+        return folder
+
+    def test_a_folder_is_one_event_with_several_sources(self):
+        detail = {"type": "Feature", "id": "x", "properties": {"title": "M 7.0 - Nowhere", "time": 1700000000000, "products": {
+            "finite-fault": [{"properties": {"average-rupture-velocity": "3.1", "average-rise-time": "5"}}]}}}
+        texts = {"detail.json": json.dumps(detail), "readme.txt": "hello", "picture.png": "\0\1\2\3"}
+        for name in ("subfaults.geojson", "subfaults.param"):
+            with open(os.path.join(SOURCE, "tests/data", name), encoding="utf-8") as file:
+                texts["FFM" + os.path.splitext(name)[1]] = file.read()
+        with open(os.path.join(SOURCE, "cases/synthetic-fault.fsp"), encoding="utf-8") as file:
+            texts["model.fsp"] = file.read()
+        folder = self.folder_of(texts)
+        os.mkdir(os.path.join(folder, "maps"))
+        events = json.loads(self.ok("event", folder, "--json", "--samples", "0"))["events"]
+        self.assertEqual([e["name"] for e in events], [f"{name}: M 7.0 - Nowhere" for name in ("FFM.geojson", "FFM.param", "detail.json", "model.fsp")])
+        for event in events:
+            self.assertTrue(any(w.startswith(f"sources of {folder} disagree: stress from") for w in event["warnings"]))
+            self.assertIn(f"sources of one event in {folder}: 4; not read: maps, picture.png, readme.txt", event["warnings"])
+        strict = run("event", folder, "--strict", "--samples", "0")
+        self.assertEqual((strict.returncode, strict.stderr.count("\n")), (2, 3), strict.stderr)
+
     def test_refuses_files(self):
         self.refused(3, "event", "/nowhere/x.csv", says=["/nowhere/x.csv", "No such file"])
-        self.refused(3, "event", "/", says=["directory"])
+        self.refused(3, "event", os.path.join(self.folder_of({}), ""), says=["a folder without files"])
+        self.refused(2, "event", self.folder_of({"a.txt": "hello"}), says=["a.txt", "no line has the titles"])
         self.refused(2, "event", self.file("empty.csv", ""), says=["empty"])
         self.refused(2, "event", self.file("nu.toml", '[event]\nrupture_velocity = "3 km/s"\n[medium]\npoisson_ratio = 0.5\n'),
                      says=["poisson_ratio = '0.5", "-1 < poisson_ratio < 0.5"])

@@ -111,9 +111,9 @@ static int fails(const char* kind) {
   return 1;
 }
 
-/* The OpenMP runtime (libgomp or libomp) ends the program if it gets no memory or cannot read /proc. The dynamic loader
-   does so if it gets no memory for thread-local data. Our program cannot prevent that, so these calls do not fail. A
-   search for the caller takes longer than most programs need between two calls, so we store the answers. */
+/* An OpenMP runtime (libgomp or libomp of BLAS) ends the program if it gets no memory or cannot read /proc. The dynamic
+   loader does so if it gets no memory for thread-local data. Our program cannot prevent that, so these calls do not
+   fail. A search for the caller takes longer than most programs need between two calls, so we store the answers. */
 static int ends_the_program(const void* caller) {
   static unsigned long answers[4096]; /* the caller, and in the lowest bit the answer */
   static __thread int asking;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "slipfront/theory/rupture/relations.hpp"
 
@@ -38,6 +40,36 @@ TEST(AlongFault, FindsThePlaneFront) {
   }
   EXPECT_NEAR(std::fabs(states.back().along_strike - states.front().along_strike), 22000, 1e-6);
   EXPECT_NEAR(states.back().down_dip - states.front().down_dip, 7500, 1e-6);
+}
+
+/// The slope of the rupture times of the eight subfaults that are nearest to `here`, found among all.
+double slowness_by_search(const LocalState& here, std::vector<LocalState> all) {
+  const auto distance = [&](const LocalState& s) {
+    return std::hypot(s.along_strike - here.along_strike, s.down_dip - here.down_dip);
+  };
+  std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  double aa = 0, ab = 0, bb = 0, at = 0, bt = 0;
+  for (std::size_t k = 1; k <= 8; ++k) {
+    const double a = all[k].along_strike - here.along_strike, b = all[k].down_dip - here.down_dip;
+    const double t = *all[k].subfault.rupture_time - *here.subfault.rupture_time;
+    aa += a * a, ab += a * b, bb += b * b, at += a * t, bt += b * t;
+  }
+  return std::hypot(at * bb - bt * ab, bt * aa - at * ab) / (aa * bb - ab * ab);
+}
+
+/// Subfaults that are long along strike or down dip, at no equal distances, in the order of no direction.
+TEST(AlongFault, FitsTheEightNearestSubfaults) {
+  for (const double length : {3000.0, 1000.0, 300.0}) {
+    Observation o;
+    o.name = "curved front";
+    for (int n = 0; n < 91; ++n) {
+      const int k = n * 34 % 91, i = k % 13, j = k / 13;
+      const double x = length * (i + 0.1 * std::sin(7.0 * k)), z = 1000 * (j + 0.1 * std::cos(5.0 * k));
+      o.subfaults.push_back({.x = x, .z = 500 + z, .slip = 1, .rupture_time = std::hypot(x - 2000, z - 3000) / 2500});
+    }
+    const std::vector<LocalState> states = along_fault(o, {});
+    for (const LocalState& s : states) EXPECT_NEAR(*s.rupture_velocity_m_s * slowness_by_search(s, states), 1, 1e-9);
+  }
 }
 
 TEST(AlongFault, LeavesMissingQuantitiesAbsent) {

@@ -4,12 +4,14 @@ import json
 import os
 import shutil
 import unittest
+import unittest.mock
 
 import numpy as np
 from PIL import Image
 
 from commands import PythonCommands, run_here
 import slipfront
+from slipfront import cmd_animate
 from slipfront.plots.animation import Scene
 from slipfront.plots.animation import positions
 from slipfront.plots.plane_animation import PlaneScene
@@ -55,6 +57,14 @@ class Animate(PythonCommands):
             with open(out, "rb") as file:
                 self.assertEqual(file.read(12)[4:8], b"ftyp")
         self.assertEqual([name for name in os.listdir(folder) if name.startswith(".")], [])
+
+    def test_knows_models_by_their_content(self):
+        for model in ("subfaults.srf", "subfaults.param", "subfaults.geojson"):
+            with open(os.path.join(SOURCE, "tests/data", model), encoding="utf-8") as file:
+                named = self.file(f"{model}.txt", file.read())
+            with unittest.mock.patch.object(cmd_animate, "run", side_effect=ValueError("run")):
+                self.assertRaisesRegex(ValueError, "^run$", cmd_animate.content_to_show, named)
+        self.refused(2, "animate", self.file("row.txt", "name,slip\na,1\n"), "-o", "a.gif", says=["neither NetCDF nor CSV"])
 
     def test_side_by_side_with_scales_in_si(self):
         pulses = [slipfront.pulse(STEP, set={"output.every": 1.5, "friction.law": "viscous", "friction.coefficient": c}) for c in (0, 0.5)]

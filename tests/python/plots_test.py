@@ -50,7 +50,7 @@ class Figures(PythonCommands):
         np.testing.assert_array_equal(lines["trailing edge, fast (V−)"].get_xdata(), pulse["trailing_front"])
         np.testing.assert_array_equal(lines["trailing edge, fast (V−)"].get_ydata(), pulse["time"])
         for axes in figure.axes[:2]:
-            self.assertEqual({text.get_text() for text in axes.texts}, {"V−", "V+"})
+            self.assertEqual({text.get_text(): text.get_ha() for text in axes.texts}, {"V−": "left", "V+": "right"})  # not on the dotted lines
 
     def test_a_map_follows_the_fronts_between_outputs(self):
         """Without friction the fields depend only on x / t, so the values between two outputs are known."""

@@ -152,6 +152,20 @@ class Arrivals(unittest.TestCase):
         found = slipfront.arrivals({"x [m]": [0, 1, 2], "t [s]": [1.0, 0.0, 2.0]})
         self.assertEqual(found.velocity.values.tolist(), [1.0, 0.5])
 
+    def test_equal_arrival_times_give_no_velocity_but_a_reason(self):
+        exact = slipfront.arrivals({"x [m]": [0, 1, 2], "t [s]": [1.0, 1.0, 1.0]})
+        self.assertEqual(exact.sizes["front"], 3)
+        self.assertTrue(numpy.isnan(exact.velocity).all() and numpy.isnan(exact.velocity_interval).all())
+        self.assertEqual(exact.attrs["warnings"].count("equal arrival times"), 3)
+        table = {"x [m]": [0, 1], "t [s]": [1.0, 1.0], "error of time [s]": [0.1, 0.1]}
+        bounded = slipfront.arrivals(table)
+        self.assertTrue(numpy.isnan(bounded.velocity[0]))
+        bound = 1 / (slipfront._arrivals.SIGMAS * 0.1 * 2**0.5)
+        numpy.testing.assert_allclose(bounded.velocity_interval[0], [bound, float("inf")])
+        self.assertIn("only a lower bound", bounded.attrs["warnings"])
+        later = slipfront.arrivals({**table, "t [s]": [1.0, 1.0 + 1e-9]})
+        numpy.testing.assert_allclose(later.velocity_interval[0, 0], bound, rtol=1e-6)
+
     def test_a_map_names_other_titles(self):
         found = slipfront.arrivals(
             {"gauge": [0, 10], "T1": [0, 50], "sT": [1, 1]},

@@ -105,7 +105,8 @@ def name_fronts(axes, pulse) -> None:
         inside = numpy.flatnonzero(front.notnull().values & (pulse["time"].values > 0))
         if symbol and inside.size:
             row = inside[int(0.6 * (inside.size - 1))]
-            right = symbol == "V+"
+            ahead = float(pulse.get(f"{front.name}_observed", front)[row] - front[row])
+            right = not ahead > 0 if symbol == "V+" else ahead < 0  # not on the dotted line
             axes.annotate(symbol, (float(front[row]), float(pulse["time"][row])),
                           xytext=(5 if right else -5, 0), textcoords="offset points",
                           ha="left" if right else "right", va="center", color="#005f8f",

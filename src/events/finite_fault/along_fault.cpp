@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "events/finite_fault/on_plane.hpp"
 #include "math/digits.hpp"
@@ -66,25 +67,47 @@ void lay_in_plane(std::vector<LocalState>& states, std::size_t from, std::size_t
   }
 }
 
-/// Speed of the rupture at subfault i, by a plane through its rupture time and those of its eight nearest neighbours.
-std::optional<double> speed_at(const std::vector<LocalState>& states, std::size_t i, std::size_t from, std::size_t to) {
-  if (!states[i].subfault.rupture_time) return std::nullopt;
-  const auto squared = [&](std::size_t j) {
-    return std::pow(states[j].along_strike - states[i].along_strike, 2) +
-           std::pow(states[j].down_dip - states[i].down_dip, 2);
+/// The subfaults of one segment that have a rupture time, in their order along strike.
+std::vector<std::size_t> timed_along_strike(const std::vector<LocalState>& states, std::size_t from, std::size_t to) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = from; i < to; ++i)
+    if (states[i].subfault.rupture_time) order.push_back(i);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return states[a].along_strike < states[b].along_strike; });
+  return order;
+}
+
+/// The eight subfaults that are nearest to order[at], or all if there are fewer. In each direction the search ends
+/// where the distance along strike exceeds that of the eighth, because models have up to 10^5 subfaults.
+std::vector<std::pair<double, std::size_t>> nearest_of(const std::vector<LocalState>& states,
+                                                       const std::vector<std::size_t>& order, std::size_t at) {
+  const LocalState& here = states[order[at]];
+  std::vector<std::pair<double, std::size_t>> near;  // squared distance, and index
+  const auto offer = [&](std::size_t index) {
+    const double along = std::pow(states[index].along_strike - here.along_strike, 2);
+    if (near.size() == 8 && along > near.back().first) return false;
+    const std::pair<double, std::size_t> one{along + std::pow(states[index].down_dip - here.down_dip, 2), index};
+    near.insert(std::upper_bound(near.begin(), near.end(), one), one);
+    if (near.size() > 8) near.pop_back();
+    return true;
   };
-  std::vector<std::size_t> near;
-  for (std::size_t j = from; j < to; ++j)
-    if (j != i && states[j].subfault.rupture_time) near.push_back(j);
-  const std::size_t count = std::min<std::size_t>(8, near.size());
-  if (count < 3) return std::nullopt;
-  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end(),
-                    [&](std::size_t a, std::size_t b) { return squared(a) < squared(b); });
+  for (std::size_t j = at; j > 0 && offer(order[j - 1]);) --j;
+  for (std::size_t j = at + 1; j < order.size() && offer(order[j]);) ++j;
+  return near;
+}
+
+/// Speed of the rupture at order[number], by a plane through its rupture time and those of its eight nearest
+/// neighbours.
+std::optional<double> speed_at(const std::vector<LocalState>& states, const std::vector<std::size_t>& order,
+                               std::size_t number) {
+  const LocalState& here = states[order[number]];
+  const auto near = nearest_of(states, order, number);
+  if (near.size() < 3) return std::nullopt;
   double aa = 0, ab = 0, bb = 0, at = 0, bt = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const LocalState& n = states[near[k]];
-    const double a = n.along_strike - states[i].along_strike, b = n.down_dip - states[i].down_dip;
-    const double t = *n.subfault.rupture_time - *states[i].subfault.rupture_time;
+  for (const auto& [distance, index] : near) {
+    const LocalState& n = states[index];
+    const double a = n.along_strike - here.along_strike, b = n.down_dip - here.down_dip;
+    const double t = *n.subfault.rupture_time - *here.subfault.rupture_time;
     aa += a * a, ab += a * b, bb += b * b, at += a * t, bt += b * t;
   }
   const double determinant = aa * bb - ab * ab;
@@ -104,9 +127,10 @@ std::vector<LocalState> along_fault(const Observation& o, const medium::Defaults
   for (std::size_t from = 0, to = 0; from < states.size(); from = to) {
     while (to < states.size() && states[to].subfault.segment == states[from].subfault.segment) ++to;
     lay_in_plane(states, from, to);
+    const std::vector<std::size_t> order = timed_along_strike(states, from, to);
+    for (std::size_t i = 0; i < order.size(); ++i) states[order[i]].rupture_velocity_m_s = speed_at(states, order, i);
     for (std::size_t i = from; i < to; ++i) {
       LocalState& s = states[i];
-      s.rupture_velocity_m_s = speed_at(states, i, from, to);
       if (s.subfault.rise_time && s.subfault.slip > 0) s.slip_velocity_m_s = s.subfault.slip / *s.subfault.rise_time;
       if (!s.rupture_velocity_m_s || *s.rupture_velocity_m_s >= e.speed) continue;
       const rupture::Relations r = rupture::from_rupture_velocity(*s.rupture_velocity_m_s / e.speed);

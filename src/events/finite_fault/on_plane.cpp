@@ -311,7 +311,9 @@ std::string plain(std::string_view name, bool word) {
 }
 
 /// A key that is equal for all entries of one earthquake. It is empty if an entry has no name or no date.
-std::string earthquake_of(const Observation& o) {
+std::string earthquake_of(const Entry& entry) {
+  if (!entry.event.empty()) return entry.event;
+  const Observation& o = entry.observation;
   const std::string day = day_of(o.date), name = plain(o.name, day.size() > 4);
   return day.empty() || name.empty() ? std::string() : name + ", " + day + ",";
 }
@@ -323,8 +325,9 @@ struct SourceStress {
 };
 using ByEarthquake = std::map<std::string, std::vector<SourceStress>>;
 
-void add_source(ByEarthquake& sources, const Observation& o, const medium::Defaults& defaults) try {
-  const std::string earthquake = earthquake_of(o);
+void add_source(ByEarthquake& sources, const Entry& entry, const medium::Defaults& defaults) try {
+  const Observation& o = entry.observation;
+  const std::string earthquake = earthquake_of(entry);
   if (earthquake.empty()) return;
   const Estimate e = estimate(o, defaults, true);
   const auto& stress = e.stress_pa ? e.stress_pa : e.stress_pa_bound;
@@ -333,16 +336,16 @@ void add_source(ByEarthquake& sources, const Observation& o, const medium::Defau
 } catch (const InputError&) {  // the result of this entry reports the error
 }
 
-void warn_of_disagreement(const ByEarthquake& sources, Observation& o) {
-  const auto found = sources.find(earthquake_of(o));
+void warn_of_disagreement(const ByEarthquake& sources, Entry& entry) {
+  const auto found = sources.find(earthquake_of(entry));
   if (found == sources.end()) return;
   const auto [least, most] =
       std::minmax_element(found->second.begin(), found->second.end(),
                           [](const SourceStress& a, const SourceStress& b) { return a.stress_pa < b.stress_pa; });
   if (!(most->stress_pa > most_disagreement * least->stress_pa)) return;
-  o.warnings.push_back("sources of " + found->first + " disagree: stress from " + digits(least->stress_pa / 1e6, 3) +
-                       " MPa (" + least->place + ") to " + digits(most->stress_pa / 1e6, 3) + " MPa (" + most->place +
-                       ")");
+  entry.observation.warnings.push_back("sources of " + found->first + " disagree: stress from " +
+                                       digits(least->stress_pa / 1e6, 3) + " MPa (" + least->place + ") to " +
+                                       digits(most->stress_pa / 1e6, 3) + " MPa (" + most->place + ")");
 }
 
 }  // namespace
@@ -350,9 +353,9 @@ void warn_of_disagreement(const ByEarthquake& sources, Observation& o) {
 void warn_of_other_sources(std::vector<Entry>& entries, const medium::Defaults& defaults) {
   ByEarthquake sources;
   for (const Entry& entry : entries)
-    if (!entry.error) add_source(sources, entry.observation, defaults);
+    if (!entry.error) add_source(sources, entry, defaults);
   for (Entry& entry : entries)
-    if (!entry.error) warn_of_disagreement(sources, entry.observation);
+    if (!entry.error) warn_of_disagreement(sources, entry);
 }
 
 }  // namespace slipfront::finite_fault

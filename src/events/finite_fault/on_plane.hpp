@@ -87,7 +87,8 @@ FaultColumns columns_of(const std::vector<LocalState>& states);
 inline constexpr double most_disagreement = 2;
 
 /// Adds a warning to each entry where sources of its earthquake disagree. Two entries are one earthquake if they have
-/// the same day and the same first word in their names; where only the year is known, the same year and the same name.
+/// the same folder; or the same day and the same first word in their names; where only the year is known, the same year
+/// and the same name.
 void warn_of_other_sources(std::vector<catalogue::Entry>& entries, const medium::Defaults& defaults);
 
 }  // namespace slipfront::finite_fault

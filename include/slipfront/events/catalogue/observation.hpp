@@ -113,6 +113,7 @@ struct Observation : medium::Constants {
 struct Entry {
   Observation observation;
   std::optional<Complaint> error;
+  std::string event = {};  ///< entries with the same text are sources of one event; empty: name and date decide
 };
 
 }  // namespace slipfront::catalogue

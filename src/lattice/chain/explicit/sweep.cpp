@@ -127,7 +127,7 @@ Sweep::Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size
       right_states_(forces.variables() * halo) {}
 
 std::size_t Sweep::arrays(const Forces& forces, const WorkMeter& meter) {
-  return least_arrays + (forces.has_contact() ? PeriodicForce::terms : 0) + forces.variables() +
+  return least_arrays + (forces.has_contact() ? PeriodicForce::terms / 2 : 0) + forces.variables() +
          (meter.of_each_step() == Measured::nothing ? 0 : 2) + (forces.implicit_speed() ? 2 : 0) +
          (meter.needs_step_before() ? 3 : 0);
 }

@@ -72,7 +72,8 @@ class Sweep {
   /// least as many sites as a halo, unless it is the only one.
   Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size_t> cuts);
 
-  /// How many numbers of a site each level reads or writes. With fewer of them, more sites stay in the cache.
+  /// How many numbers of a site each level reads or writes. With fewer of them, more sites stay in the cache. The
+  /// coefficients of contacts count by half: they are read in order, so that half of them may come from the next cache.
   static std::size_t arrays(const Forces& forces, const WorkMeter& meter);
   static constexpr std::size_t least_arrays = 3;
 

@@ -69,7 +69,7 @@ class ImplicitStep {
   const SiteForces& forces_;
   const CompactSprings& springs_;
   const friction::Friction& friction_law_;
-  [[maybe_unused]] int threads_;  ///< number of OpenMP threads
+  int threads_;
   const ChainState* from_ = nullptr;
   SiteForces::Drives drives_;
   double rounding_ = 0;  ///< rounding error of the force on a site

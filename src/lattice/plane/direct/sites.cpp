@@ -286,11 +286,12 @@ class Contours {
   void add_square(std::size_t site) {
     const std::size_t n = sites_.stride();
     const std::array<double, 4> corner{turns(site), turns(site + 1), turns(site + n + 1), turns(site + n)};
-    const auto [least, most] = std::minmax_element(corner.begin(), corner.end());
-    if (!(std::fabs(*least) < 1e8 && *most - *least < 1e6)) return;  // not a displacement: the run ends with an error
+    const auto [lowest, highest] = std::minmax_element(corner.begin(), corner.end());
+    if (!(std::fabs(*lowest) < 1e8 && *highest - *lowest < 1e6))
+      return;  // not a displacement: the run ends with an error
     const std::array<std::pair<std::size_t, bool>, 4> edges{
         {{site, false}, {site + 1, true}, {site + n, false}, {site, true}}};
-    for (int number = static_cast<int>(std::floor(*least)) + 1; number <= *most; ++number) {
+    for (int number = static_cast<int>(std::floor(*lowest)) + 1; number <= *highest; ++number) {
       std::array<Crossing, 4> found{};
       std::size_t count = 0;
       for (std::size_t e = 0; e < 4; ++e)
