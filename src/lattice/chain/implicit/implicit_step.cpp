@@ -339,7 +339,7 @@ void ImplicitStep::take(ChainState& m, double dt) const {
 double ImplicitStep::hardest_position() const {
   std::size_t site = 0;
   const auto imbalance = [this](std::size_t j) {
-    return std::fabs(right_[j]) <= accuracy * std::fabs(w_[j]) ? 0 : std::fabs(right_[j] * slope_[j]);
+    return std::fabs(right_[j]) > accuracy * std::fabs(w_[j]) ? std::fabs(right_[j] * slope_[j]) : 0;
   };
   for (std::size_t j = 0; j < sites() && std::isfinite(force_[site]); ++j)
     if (!(std::fabs(force_[j]) < HUGE_VAL) || imbalance(j) > imbalance(site)) site = j;
