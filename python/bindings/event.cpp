@@ -70,8 +70,8 @@ run::CatalogueScenario scenario_of(const std::vector<Source>& sources, const py:
   run::CatalogueScenario scenario;
   scenario.command_line = "slipfront event";
   for (const auto& [content, name, is_path] : sources) {
-    for (run::EventText& text : is_path ? run::texts_of(name) : std::vector<run::EventText>{{name, content}})
-      scenario.texts.push_back(std::move(text));
+    for (run::EventText& event : is_path ? run::texts_of(name) : std::vector<run::EventText>{{name, content}})
+      scenario.texts.push_back(std::move(event));
     scenario.command_line += " " + name;
   }
   if (const std::string map = text("columns_file"); !map.empty())

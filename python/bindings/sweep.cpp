@@ -20,7 +20,7 @@
 #include "runs/run.hpp"
 #include "runs/tables.hpp"
 #include "system/machine.hpp"
-#include "system/parallel.hpp"
+#include "system/threads.hpp"
 
 namespace {
 

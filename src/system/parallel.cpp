@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <new>
-#include <system_error>
 
 #include "system/team.hpp"
+#include "system/threads.hpp"
 
 namespace slipfront {
 
@@ -29,17 +28,6 @@ void for_each_parallel(std::size_t count, int threads, const std::function<void(
     work();
   }
   first.rethrow();
-}
-
-std::vector<std::jthread> start_threads(std::size_t wanted, const std::function<void()>& body) {
-  std::vector<std::jthread> started;
-  try {
-    started.reserve(wanted);
-    for (std::size_t i = 0; i < wanted; ++i) started.emplace_back([&body] { body(); });
-  } catch (const std::system_error&) {
-  } catch (const std::bad_alloc&) {
-  }
-  return started;
 }
 
 }  // namespace slipfront

@@ -4,8 +4,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <thread>
-#include <vector>
 
 namespace slipfront {
 
@@ -14,9 +12,5 @@ namespace slipfront {
 /// start of threads: 256 pieces of a microsecond; 1 where each takes long.
 void for_each_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& body,
                        std::size_t few = 256);
-
-/// Starts up to `wanted` threads that call `body`, which must not throw. If the machine provides fewer, those that have
-/// started are returned. `body` must exist until they have been joined.
-std::vector<std::jthread> start_threads(std::size_t wanted, const std::function<void()>& body);
 
 }  // namespace slipfront

@@ -1,7 +1,7 @@
-#include "text/toml.hpp"
-
 #include <locale>
 #include <sstream>
+
+#include "text/toml.hpp"
 
 namespace slipfront {
 

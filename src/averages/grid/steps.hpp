@@ -102,10 +102,10 @@ class GridSteps {
   GridEquations::Guesses guesses_;
   Front front_;
   bool friction_acts_;
-  bool acts_in_stages_;       ///< friction acts after each stage, not before and after a step
-  bool sticks_;               ///< friction has strength at rest
-  std::size_t each_ = 0;      ///< state variables of a cell
-  std::vector<char> patch_;   ///< whether each cell lies in the nucleation patch; empty: none
+  bool acts_in_stages_;                 ///< friction acts after each stage, not before and after a step
+  bool sticks_;                         ///< friction has strength at rest
+  std::size_t each_ = 0;                ///< state variables of a cell
+  std::vector<char> patch_;             ///< whether each cell lies in the nucleation patch; empty: none
   std::vector<double> held_;            ///< static load; empty: none
   std::vector<double> steady_forcing_;  ///< NaN where it is not known yet
   Averages rate_, old_;

@@ -13,8 +13,8 @@ namespace chains = slipfront::chain;
 
 constexpr std::size_t begins[] = {8, 16, 32, 40, 75}, blocks = 4, sites = 67, room = 72;
 
-/// What the sum of each block should be: all its sites count, also those that do not fill a vector, and the sites at
-/// the ends of a chain by half.
+/// The sums should be those of their definition: all sites of a block count, also those that do not fill a vector, and
+/// the sites at the ends of a chain by half.
 template <class Term>
 void expect_sums(const std::vector<double>& sums, const Term& term, double tolerance) {
   for (std::size_t i = 0; i < blocks; ++i) {

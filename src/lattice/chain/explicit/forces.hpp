@@ -138,11 +138,11 @@ class ForcingInTime {
   long begin_ = 0, end_ = 0;  ///< levels of the present polynomial, or of the present calls of the formula
   bool polynomial_ = false;
   long called_ = -1;  ///< the level around which the terms are calls of the formula
-  double most_ = 0;  ///< largest |F| at the nodes, of all ranks
+  double most_ = 0;   ///< largest |F| at the nodes, of all ranks
   std::array<std::vector<double>, nodes> values_;
   std::vector<NodeWeights> nodes_of_terms_;  ///< weights of a term in the values at the nodes
   std::vector<Aligned> terms_, beside_;
-  std::vector<ForceTerms::Weights> weights_;  ///< of the terms, at each level from the one before on
+  std::vector<ForceTerms::Weights> weights_;  ///< weights of the terms, at each level from the one before on
 };
 
 /// Sites [left, right) whose next level is computed, as indices of arrays that begin at site `offset` of the chain. The

@@ -241,7 +241,7 @@ void Sweep::advance(const Tile& t, std::size_t count) {
   last_step(t, count);
 }
 
-/// What the first loop measures of the steps of a tile.
+/// The measure of the first loop for the steps of a tile.
 StepOfU Sweep::step(const Tile& t) {
   if (meter_.of_each_step() == Measured::nothing) return {};
   const std::size_t first = slab_.begin() + t.from;

@@ -22,11 +22,11 @@ class WorkMeter {
 
   /// Whether there is any work to measure.
   bool active() const { return !begins_.empty(); }
-  /// What is measured of each step in the first loop.
+  /// The measure of each step in the first loop.
   Measured of_each_step() const { return of_each_step_; }
   /// Whether the work needs the step before each step.
   bool needs_step_before() const { return active() && problem_->forcing && !problem_->steady_forcing; }
-  /// What the first loop measures on sites [begin, end), whole blocks that are at `at` in its arrays.
+  /// The measure of the first loop on sites [begin, end), whole blocks that are at `at` in its arrays.
   StepOfU step(std::size_t begin, std::size_t end, std::size_t at);
 
   /// A step of consecutive sites.
@@ -37,7 +37,7 @@ class WorkMeter {
     friction::LocalStates states;
     double *scratch, *further;  ///< room for as many numbers; `further` may be `applied`
   };
-  /// Measures what the first loop does not, for a step of such sites from the level of the forces.
+  /// Measures all other work, for a step of such sites from the level of the forces.
   void add(const Forces& forces, std::size_t begin, std::size_t end, const Steps& steps);
   /// Adds `strength` times F u of a force that does not change, at sites [begin, end), to the energies supplied.
   void add_potential(double strength, const double* F, std::size_t begin, std::size_t end, const double* u,

@@ -22,7 +22,7 @@ using FiveRows = std::array<const double*, 5>;
 /// result = f_xx + f_yy of the middle row, which reads two sites on each side of it.
 void laplacian(const RowShape& shape, const FiveRows& f, double* result);
 
-/// What acts on a row of sites. Each may be null.
+/// The forces on a row of sites. Each may be null.
 struct RowForces {
   const double* contact2 = nullptr;  ///< a^2
   const double* force = nullptr;     ///< added to the acceleration

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t terms = PeriodicForce::terms;
 
-/// What a site adds to a sum: first + second / 12.
+/// The number that a site adds to a sum: first + second / 12.
 struct Term {
   double first = 0, second = 0;
 };
@@ -84,7 +84,7 @@ template <int count, class Site>
   each_vector<0>(j, end, unused, site);
 }
 
-/// Keeps u at site j and the step to it, and returns what is measured of the step.
+/// Keeps u at site j and the step to it, and returns the measure of the step.
 template <Measured what>
 [[gnu::always_inline]] inline Term keep(const StepOfU& step, double u, std::size_t j) {
   if constexpr (what == Measured::nothing) return {};
@@ -168,7 +168,7 @@ struct StepTo {
   }
 };
 
-/// Calls loop.measuring<what>() for what is measured of a step.
+/// Calls loop.measuring<what>().
 template <class Loop>
 [[gnu::always_inline]] inline void as_measured(Measured what, const Loop& loop) {
   if (what == Measured::nothing) return loop.template measuring<Measured::nothing>();
@@ -367,9 +367,8 @@ namespace {
 template <class OfSite>
 [[gnu::always_inline]] inline void add_terms(BlockSums to, double factor, const OfSite& of_site) {
   to.at = 0;
-  each_sum<1>(to, factor, 0, 0, [&](std::size_t j, std::size_t) __attribute__((always_inline)) {
-    return Term{of_site(j)};
-  });
+  each_sum<1>(
+      to, factor, 0, 0, [&](std::size_t j, std::size_t) __attribute__((always_inline)) { return Term{of_site(j)}; });
 }
 
 }  // namespace

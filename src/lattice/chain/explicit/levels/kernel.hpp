@@ -71,14 +71,14 @@ struct BlockSums {
   std::size_t begin(std::size_t i) const { return at + (begins[i] - begins[0]); }
 };
 
-/// What the first loop measures on its way: u at the level that it starts from, in turns, and the step D since the
+/// The measures of the first loop: u at the level that it starts from, in turns, and the step D since the
 /// level before. Sums of blocks get, times `factor`, |D| or D^2 + B^2 / 12 with B = D - D_before (WorkMeter).
 enum class Measured { nothing, steps, absolutes, squares };
 struct StepOfU {
   Measured what = Measured::nothing;
   double eps = 0;
   double *u = nullptr, *D = nullptr;  ///< at the level before; they become those of this level
-  const double* D_before = nullptr;   ///< where D is at the level before; may be the same array
+  const double* D_before = nullptr;   ///< D at the level before; may be the same array
   BlockSums to = {};
   double factor = 0;
 };
