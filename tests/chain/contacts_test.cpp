@@ -348,6 +348,18 @@ TEST(Contacts, ImplicitStepsConserveEnergyAndResumeToTheSameBits) {
   EXPECT_EQ(one.window(0, 401).velocity, resumed.window(0, 401).velocity);
 }
 
+/// Friction holds sites at 1e-36, whose contacts age as fast as forces are rounded: Newton's method has to balance all
+/// of the force of friction and contacts there.
+TEST(Contacts, StepsConvergeWhereFrictionHoldsSitesWhoseContactsAge) {
+  Problem p = with_contacts(rate_and_state({0.2, 0.0037, 0.088, 0.287, 0.01}, {0.16, 42, 0, 0, 0}));
+  p.grid = {0, 0.2, 201};
+  p.boundary = {.left = chain::End::free, .right = chain::End::free};
+  p.implicit = true;
+  p.loading = {.stiffness = 1.93, .velocity = 2.4e-4, .event_velocity = 1};
+  ImplicitChain chain(p, chain::static_train([](double) { return 0.5; }, p.grid, false, p.contact));
+  EXPECT_TRUE(chain.advance_to(0.1));
+}
+
 /// Contacts at rest heal as ln(1 + t / theta). In pores that do not drain, the pressure rises with them.
 TEST(Contacts, ReportsThePositionWhereThePorePressureReachesTheNormalStress) {
   for (const bool implicit : {false, true}) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -18,7 +19,8 @@ using Indices = std::vector<std::size_t>;
 struct Known {
   Dislocation dislocation;
   std::size_t number;
-  double time;  ///< at which it was last seen
+  double time;      ///< at which it was last seen
+  double velocity;  ///< mean since it was seen before, no faster than c; NaN if it was seen once
 };
 
 bool has_both_signs(const Dislocations& all) {
@@ -54,20 +56,27 @@ class Successors {
         time_(now.time),
         ring_length_(ring_length),
         numbers_(now_.size(), no_number),
-        is_free_(known.size(), 1) {}
+        velocities_(now_.size(), std::numeric_limits<double>::quiet_NaN()),
+        is_free_(known.size(), 1) {
+    for (const Known& one : known) last_x_.push_back(one.dislocation.x);
+  }
 
   /// For each dislocation the number that it continues, or no_number.
   Indices numbers() {
     if (ring_length_ == 0 && has_both_signs(before_) && has_both_signs(now_) && continue_in_order()) return numbers_;
+    const auto sign = [](const Dislocation& d) { return std::pair(d.sign, 0L); };
+    if (ring_length_ == 0 && has_antidislocations()) continue_nearest(expected_positions(), true, sign);
     const long once_around = ring_length_ > 0 ? std::labs(charge(now_)) : 0;
-    continue_nearest(before_.size(), false, [once_around](const Dislocation& d) {
+    const std::vector<double> of_last(last_x_.begin(), last_x_.begin() + static_cast<std::ptrdiff_t>(before_.size()));
+    continue_nearest(of_last, false, [once_around](const Dislocation& d) {
       const long level = once_around > 0 ? (d.level % once_around + once_around) % once_around : d.level;
       return std::pair(d.sign, level);
     });
-    if (has_antidislocations())
-      continue_nearest(known_.size(), true, [](const Dislocation& d) { return std::pair(d.sign, 0L); });
+    if (has_antidislocations()) continue_nearest(last_x_, true, sign);
     return numbers_;
   }
+  /// After `numbers`: the velocity of each dislocation, NaN if it is new.
+  const std::vector<double>& velocities() const { return velocities_; }
 
  private:
   /// A dislocation that has no other end yet.
@@ -88,7 +97,25 @@ class Successors {
 
   void connect(std::size_t known, std::size_t now) {
     numbers_[now] = known_[known].number;
+    velocities_[now] = std::clamp((now_[now].x - last_x_[known]) / reach_of(known), -1.0, 1.0);
     is_free_[known] = 0;
+  }
+
+  /// Rule 2: where the known dislocations are now at constant velocity, NaN for those without one. Those of one sign
+  /// keep their order: fast ones hand their velocity over.
+  std::vector<double> expected_positions() const {
+    std::vector<double> expected(known_.size(), std::numeric_limits<double>::quiet_NaN());
+    for (const int sign : {1, -1}) {
+      Indices some;
+      for (std::size_t i = 0; i < known_.size(); ++i)
+        if (known_[i].dislocation.sign == sign && !std::isnan(known_[i].velocity)) some.push_back(i);
+      std::sort(some.begin(), some.end(), [&](std::size_t a, std::size_t b) { return last_x_[a] < last_x_[b]; });
+      std::vector<double> x;
+      for (const std::size_t i : some) x.push_back(last_x_[i] + known_[i].velocity * reach_of(i));
+      std::sort(x.begin(), x.end());
+      for (std::size_t i = 0; i < some.size(); ++i) expected[some[i]] = x[i];
+    }
+    return expected;
   }
 
   /// Rule 1. Returns whether it applies.
@@ -108,14 +135,13 @@ class Successors {
     return true;
   }
 
-  /// Connects the first `count` known dislocations to those of the same `kind`, the nearest first.
+  /// Connects known dislocations, at these x unless it is NaN, to those of the same `kind`, the nearest first.
   template <class Kind>
-  void continue_nearest(std::size_t count, bool limited, const Kind& kind) {
+  void continue_nearest(const std::vector<double>& x, bool limited, const Kind& kind) {
     std::map<std::pair<int, long>, Singles> all;
-    for (std::size_t i = 0; i < count; ++i)
-      if (is_free_[i])
-        all[kind(known_[i].dislocation)].push_back(
-            {known_[i].dislocation.x, limited ? reach_of(i) : HUGE_VAL, false, i});
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (is_free_[i] && !std::isnan(x[i]))
+        all[kind(known_[i].dislocation)].push_back({x[i], limited ? reach_of(i) : HUGE_VAL, false, i});
     for (std::size_t i = 0; i < now_.size(); ++i)
       if (numbers_[i] == no_number) all[kind(now_[i])].push_back({now_[i].x, HUGE_VAL, true, i});
     for (auto& [key, singles] : all) {
@@ -156,6 +182,7 @@ class Successors {
   const Dislocations &before_, &now_;
   double time_, ring_length_;
   Indices numbers_;
+  std::vector<double> velocities_, last_x_;
   std::vector<char> is_free_;
 };
 
@@ -166,15 +193,16 @@ DislocationPaths dislocation_paths(const std::vector<Snapshot>& snapshots, const
   std::vector<Known> known;
   for (std::size_t i = 0; i < snapshots.size(); ++i) {
     const Snapshot& now = snapshots[i];
-    Indices numbers(now.dislocations.size(), no_number);
-    if (i > 0) numbers = Successors(known, snapshots[i - 1].dislocations, now, settings.ring_length).numbers();
+    const Dislocations before = i > 0 ? snapshots[i - 1].dislocations : Dislocations();
+    Successors successors(known, before, now, settings.ring_length);
+    Indices numbers = i > 0 ? successors.numbers() : Indices(now.dislocations.size(), no_number);
     std::vector<Known> seen;
     for (std::size_t j = 0; j < numbers.size(); ++j) {
       if (numbers[j] == no_number) {
         numbers[j] = paths.signs.size();
         paths.signs.push_back(now.dislocations[j].sign);
       }
-      seen.push_back({now.dislocations[j], numbers[j], now.time});
+      seen.push_back({now.dislocations[j], numbers[j], now.time, successors.velocities()[j]});
     }
     // Those that are not seen may be so again. The next output may be as far from this one as this one from the last.
     std::vector<char> is_seen(paths.signs.size(), 0);

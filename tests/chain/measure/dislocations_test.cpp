@@ -93,6 +93,16 @@ TEST(Dislocations, OfTwoSignsKeepTheirOrder) {
   EXPECT_EQ(output::dislocation_paths(snapshots, {}).numbers, (Numbers{{0, 1, 2, 3}, {2, 3, 0, 1}}));
 }
 
+/// Two dislocations pass an antidislocation while a third one comes in, and their levels change. The first one is then
+/// where the second one would be by its level.
+TEST(Dislocations, OfTwoSignsKeepTheirVelocityAsOneComesIn) {
+  const auto snapshots = snapshots_of({{{0, 1, 1}, {2, 1, 0}, {6.5, -1, 0}},
+                                       {{1.8, 1, 1}, {3.8, 1, 0}, {4.7, -1, 0}},
+                                       {{1.7, 1, 2}, {2.9, -1, 2}, {3.6, 1, 2}, {5.6, 1, 1}}},
+                                      2);
+  EXPECT_EQ(output::dislocation_paths(snapshots, {}).numbers, (Numbers{{0, 1, 2}, {0, 1, 2}, {3, 2, 0, 1}}));
+}
+
 /// A pair begins between two dislocations and ends again.
 TEST(Dislocations, NewPairsHaveNewNumbers) {
   const std::vector<Dislocation> without = {{0, 1, 1}, {9, 1, 0}}, pair = {{0, 1, 1}, {4, -1, 1}, {5, 1, 1}, {9, 1, 0}};

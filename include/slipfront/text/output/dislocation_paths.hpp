@@ -26,11 +26,13 @@ struct DislocationPaths {
 /// 1. Dislocations of one sign never pass each other. If dislocations of both signs are there, equally many of each as
 ///    before and equal levels at both ends, the first continues the first of its sign, and so on, unless one would have
 ///    to be faster than c.
-/// 2. A dislocation continues that of its sign and level; the nearest ones, if there are several. If u falls
+/// 2. If dislocations of both signs are there, but not on a ring, a dislocation that was seen twice continues to the
+///    nearest one of its sign, as seen from where it would be at constant velocity.
+/// 3. A dislocation continues that of its sign and level; the nearest ones, if there are several. If u falls
 ///    everywhere, there is one of each level. On a ring, levels count modulo the dislocations less the
 ///    antidislocations.
-/// 3. If dislocations of both signs are there, the rest continues the nearest one of its sign that it can have left no
-///    faster than c. That may also be one that was last seen some `meeting_time` or two outputs ago.
+/// 4. If dislocations of both signs are there, the rest continues the nearest one of its sign that it can have left no
+///    faster than c. Here and in rule 2 that may also be one that was last seen some `meeting_time` or two outputs ago.
 ///
 /// All others are new.
 DislocationPaths dislocation_paths(const std::vector<Snapshot>& snapshots, const PathSettings& settings);

@@ -54,10 +54,15 @@ StateGrid::StateGrid(const friction::Friction& friction, double left, double rig
       count_(count),
       each_(friction.state_size()) {}
 
+/// Means over the intervals of the grid, because friction may vary within an interval.
 std::vector<double> StateGrid::initial() const {
-  std::vector<double> values(each_ * count_);
+  const int samples = friction_.varies() ? 8 : 1;
+  std::vector<double> values(each_ * count_), sample(each_);
   for (std::size_t j = 0; each_ > 0 && j < count_; ++j)
-    friction_.start(left_ + (static_cast<double>(j) + 0.5) * spacing_, 0, std::span(values).subspan(each_ * j, each_));
+    for (int k = 0; k < samples; ++k) {
+      friction_.start(left_ + (static_cast<double>(j) + (k + 0.5) / samples) * spacing_, 0, sample);
+      for (std::size_t v = 0; v < each_; ++v) values[each_ * j + v] += (sample[v] - values[each_ * j + v]) / (k + 1);
+    }
   return values;
 }
 

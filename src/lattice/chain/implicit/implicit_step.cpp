@@ -12,6 +12,7 @@ namespace slipfront::chain {
 namespace {
 
 constexpr std::size_t together = 64;  ///< sites in one pass of the friction loops
+constexpr double accuracy = 1e-6;     ///< relative change of a velocity that has converged
 
 }  // namespace
 
@@ -140,12 +141,17 @@ void ImplicitStep::evaluate(std::size_t j, double dt) {
 /// w + f(w) / A is the result of the linear step, with A the slope of all other forces. Friction that is a logarithm of
 /// the velocity changes it by many decades at a time, up or down, which no linear step follows.
 double ImplicitStep::velocity_under_friction(std::size_t j, double change, double dt) const {
-  const double w = w_[j], f = friction_[j];
+  const double w = w_[j];
   const double by_springs = dt * per_weight_[j] / (2 * springs_.spacing() * springs_.spacing());
   const double weight = 1 / std::fmax(slope_[j] - friction_slope_[j] + by_springs, per_weight_[j] / (2 * dt));
   SiteForces::State values;
+  const std::span<const double> state = forces_.evolved(*from_, j, mean_velocity(j), dt / 2, values);
+  // The force of contacts that change belongs to the other forces here.
+  const bool changes = forces_.contacts_change();
+  const double share = changes ? forces_.aged(*from_, j, mean_velocity(j), dt).share : 1;
+  const double f = changes ? share * friction_law_.force(w, state) : friction_[j];
   const double linear = w + weight * f + change * (1 + weight * friction_slope_[j]);
-  return friction_law_.velocity_after(linear, weight, forces_.evolved(*from_, j, mean_velocity(j), dt / 2, values));
+  return friction_law_.velocity_after(linear, weight * share, state);
 }
 
 /// Changes the velocities by Newton's method. They have converged if all sites have: in relative velocity, or in the
@@ -162,7 +168,7 @@ ImplicitStep::Outcome ImplicitStep::correct(double dt) {
       continue;
     }
     if (springs_.held(j)) continue;
-    converged = converged && (size <= 1e-6 * std::fabs(w) || size * std::fabs(slope_[j]) <= rounding_);
+    converged = converged && (size <= accuracy * std::fabs(w) || size * std::fabs(slope_[j]) <= rounding_);
     const bool curved = forces_.rubs() && size > 0.3 * std::fabs(w) && friction_law_.steep_at_rest();
     w = curved ? velocity_under_friction(j, change, dt) : w + change;
     failed = failed || !std::isfinite(w);
@@ -332,10 +338,13 @@ void ImplicitStep::take(ChainState& m, double dt) const {
 
 double ImplicitStep::hardest_position() const {
   std::size_t site = 0;
+  const auto imbalance = [this](std::size_t j) {
+    return std::fabs(right_[j]) > accuracy * std::fabs(w_[j]) ? std::fabs(right_[j] * slope_[j]) : 0;
+  };
   for (std::size_t j = 0; j < sites() && std::isfinite(force_[site]); ++j)
-    if (!(std::fabs(force_[j]) < HUGE_VAL) || std::fabs(w_[j]) > std::fabs(w_[site])) site = j;
-  const double speed = std::isfinite(force_[site]) ? std::fabs(w_[site]) : HUGE_VAL;
-  const std::vector<double> all = forces_.ranks().joined({speed, forces_.x(site)});
+    if (!(std::fabs(force_[j]) < HUGE_VAL) || imbalance(j) > imbalance(site)) site = j;
+  const double most = std::isfinite(force_[site]) ? imbalance(site) : HUGE_VAL;
+  const std::vector<double> all = forces_.ranks().joined({most, forces_.x(site)});
   std::size_t hardest = 0;
   for (std::size_t i = 0; i < all.size(); i += 2)
     if (all[i] > all[hardest]) hardest = i;

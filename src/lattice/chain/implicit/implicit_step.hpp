@@ -31,8 +31,8 @@ class ImplicitStep {
   double error(const ChainState& from, double dt);
   /// Takes the step that `solve` found: advances `m`, from which it was tried, to the end of the step, except its time.
   void take(ChainState& m, double dt) const;
-  /// (all) After `solve` has failed: x of the first site without a finite force, or of the fastest site if all forces
-  /// are finite.
+  /// (all) After `solve` has failed: x of the first site without a finite force, or else of the site whose forces are
+  /// farthest from balance.
   double hardest_position() const;
 
  private:
