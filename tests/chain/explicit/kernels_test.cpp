@@ -82,8 +82,8 @@ TEST(ChainKernels, MeasureStepsOfAllSites) {
         [&](std::size_t j) {
           double sum = 0;
           for (int level = 1; level < 4; ++level) {
-            const double D = D_at(j, level), B = D - D_at(j, level - 1);
-            sum += squares ? D * D + B * B / 12 : std::fabs(D);
+            const double moved = D_at(j, level), B = moved - D_at(j, level - 1);
+            sum += squares ? moved * moved + B * B / 12 : std::fabs(moved);
           }
           return factor * sum;
         },
