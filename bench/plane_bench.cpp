@@ -76,6 +76,7 @@ void plane_sites(benchmark::State& state) {
   if (state.range(2) == 2) {
     p.contact = [](double x, double) { return 1 - 0.1 * std::cos(x); };
     p.forcing = [](double, double, double) { return 1e-3; };
+    p.steady_forcing = true;
   }
   if (state.range(2) == 3) p.friction = friction::coulomb(1e-3);
   const plane::Sites sites = plane::make_sites(p, 1, 0.4);
