@@ -85,15 +85,21 @@ class PowerRate final : public RelaxationRate {
 };
 
 /// C w^n; NaN where that exceeds the range of exp. w = 0 gives 0.
-SLIPFRONT_CLONES void forces(double C, double n, std::size_t size, const double* speed, double* force) {
+SLIPFRONT_INLINE double power_force(double C, double n, double speed) {
   constexpr double least = 1e-300, range = 690;
+  const double w = speed > least ? speed : 1.0, log = n * log_branch_free(w);
+  const bool within = log < range && log > -range && (speed > least || speed == 0);
+  const double power = C * exp_branch_free(within ? log : 0.0);
+  return !within ? NAN : speed == 0 ? 0.0 : power;
+}
+SLIPFRONT_CLONES void forces(double C, double n, std::size_t size, const double* speed, double* force) {
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) {
-    const double w = speed[i] > least ? speed[i] : 1.0, log = n * log_branch_free(w);
-    const bool within = log < range && log > -range && (speed[i] > least || speed[i] == 0);
-    const double power = C * exp_branch_free(within ? log : 0.0);
-    force[i] = !within ? NAN : speed[i] == 0 ? 0.0 : power;
-  }
+  for (std::size_t i = 0; i < size; ++i) force[i] = power_force(C, n, speed[i]);
+}
+SLIPFRONT_CLONES void varying_forces(const double* C, const double* n, std::size_t size, const double* speed,
+                                     double* force) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) force[i] = power_force(C[i], n[i], speed[i]);
 }
 
 SLIPFRONT_CLONES void logarithms(std::size_t size, const double* psi, double* log_psi) {
@@ -178,8 +184,12 @@ class PowerAverage final : public TabulatedAverage {
   double C_, n_;
 };
 
+class VaryingPower;
+
 class Power final : public Law {
  public:
+  using WhereItVaries = VaryingPower;
+
   explicit Power(const std::vector<double>& values)
       : Law({.steep_at_rest = values[1] < 1}),
         C_(values[0]),
@@ -214,6 +224,35 @@ class Power final : public Law {
   PowerLoops loops_;
   SquareLoops square_loops_;
   PowerAverage average_;
+};
+
+class VaryingPower final : public VaryingLaw<Power> {
+ public:
+  VaryingPower(const std::vector<double>& values, const Varying& varying) : VaryingLaw(values, varying) {}
+  const ForceLoops& loops() const override { return loops_; }
+
+ private:
+  class Loops final : public ForceLoops {
+   public:
+    explicit Loops(const VaryingPower& law) : ForceLoops(law), all_(law) {}
+    void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
+      double of[2][part_size];  // C and n
+      for (std::size_t p = 0; p < 2; ++p) std::fill_n(of[p], part_size, all_.values()[p]);
+      const std::vector<std::size_t>& parameters = all_.varying().parameters;
+      in_parts(size, [&](std::size_t begin, std::size_t some) {
+        for (std::size_t c = 0; c < parameters.size(); ++c)
+          for (std::size_t i = 0; i < some; ++i) of[parameters[c]][i] = states.at(begin + i)[c];
+        varying_forces(of[0], of[1], some, speed + begin, force + begin);
+      });
+      for (std::size_t i = 0; i < size; ++i)
+        if (std::isnan(force[i])) force[i] = law_.strength(speed[i], states.at(i));
+    }
+
+   private:
+    const VaryingPower& all_;
+  };
+
+  Loops loops_{*this};
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/simd/vector_code.hpp"
 #include "slipfront/friction/law.hpp"
 #include "slipfront/math/elliptic.hpp"
 #include "slipfront/theory/train.hpp"
@@ -43,15 +44,46 @@ class ViscousAverage final : public QuadratureAverage {
   double C_;
 };
 
+SLIPFRONT_CLONES void scale_speeds(double by, std::size_t size, const double* speed, double* force) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) force[i] = by * speed[i];
+}
+SLIPFRONT_CLONES void slow_viscously(double by, std::size_t size, const double* share, const double* free,
+                                     double* speed) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) speed[i] = free[i] / (1 + (share == nullptr ? by : by * share[i]));
+}
+
+class ViscousLoops final : public ForceLoops {
+ public:
+  ViscousLoops(const Law& law, double coefficient) : ForceLoops(law), C_(coefficient) {}
+  void strengths(std::size_t size, const double* speed, LocalStates, double* force) const override {
+    scale_speeds(C_, size, speed, force);
+  }
+  void speeds_after(std::size_t size, const double* free, double weight, LocalStates, double* speed) const override {
+    slow_viscously(weight * C_, size, nullptr, free, speed);
+  }
+  void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, LocalStates,
+                          double* speed) const override {
+    slow_viscously(weight * C_, size, share, free, speed);
+  }
+
+ private:
+  double C_;
+};
+
 class Viscous final : public Law {
  public:
-  explicit Viscous(const std::vector<double>& v) : Law({.linear_coefficient = v[0]}), C_(v[0]), average_(*this, C_) {}
+  explicit Viscous(const std::vector<double>& v)
+      : Law({.linear_coefficient = v[0]}), C_(v[0]), loops_(*this, C_), average_(*this, C_) {}
   double strength(double speed, LocalState) const override { return C_ * speed; }
   double speed_after(double free, double weight, LocalState) const override { return free / (1 + weight * C_); }
+  const ForceLoops& loops() const override { return loops_; }
   const TrainAverage& average() const override { return average_; }
 
  private:
   double C_;
+  ViscousLoops loops_;
   ViscousAverage average_;
 };
 
