@@ -159,16 +159,21 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
  private:
   static constexpr AsinhForce one{.a = 1, .base = 0, .share = 1};
 
-  /// Calls `task` with the first position of each part, its size, and the values there.
+  /// Calls `task` with the first position of each part, its size, and the values there of theta and of parameters from
+  /// `first` to `last`. The numbers of contacts and pores come later.
   template <class Task>
-  void with_values(std::size_t size, LocalStates states, const Task& task) const {
+  void with_values(std::size_t size, LocalStates states, std::size_t first, std::size_t last, const Task& task) const {
     AtPositions at;
-    for (std::size_t p = 0; p < kind; ++p) std::fill_n(at.of[p], part_size, values()[p]);
+    const auto varies = [&](std::size_t p) {
+      return std::count(varying().parameters.begin(), varying().parameters.end(), p) > 0;
+    };
+    for (std::size_t p = first; p <= last; ++p)
+      if (!varies(p)) std::fill_n(at.of[p], std::min(size, part_size), values()[p]);
     in_parts(size, [&](std::size_t begin, std::size_t some) {
       for (std::size_t i = 0; i < some; ++i) at.theta[i] = states.at(begin + i)[0];
       for (std::size_t c = 0; c < varying().parameters.size(); ++c) {
         const std::size_t parameter = varying().parameters[c];
-        if (parameter >= kind) continue;  // the force does not need the numbers of contacts and pores
+        if (parameter < first || parameter > last) continue;
         for (std::size_t i = 0; i < some; ++i) at.of[parameter][i] = states.at(begin + i)[1 + c];
       }
       task(begin, some, at);
@@ -179,7 +184,7 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
    public:
     explicit Loops(const VaryingRateAndState& law) : ForceLoops(law), all_(law) {}
     void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
-      all_.with_values(size, states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+      all_.with_values(size, states, f0, velocity, [&](std::size_t begin, std::size_t some, AtPositions& at) {
         find_G(some, at);
         const bool within = forces(one, some, speed + begin, at.G, force + begin);
         for (std::size_t i = 0; i < some; ++i) force[begin + i] *= at.of[direct][i];
@@ -190,7 +195,7 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
     /// v = a v' with v' + weight asinh(a G v') = free / a.
     void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
                       double* speed) const override {
-      all_.with_values(size, states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+      all_.with_values(size, states, f0, velocity, [&](std::size_t begin, std::size_t some, AtPositions& at) {
         double freed[part_size], aged[part_size], done[part_size];
         find_G(some, at);
         const double* const a = at.of[direct];
@@ -214,21 +219,22 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
     explicit Average(const VaryingRateAndState& law) : VaryingLaw::Average(law), all_(law), mean_of_one_(law, one) {}
     void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
       if (closure != Closure::consistent) return QuadratureAverage::mean_strengths(trains, closure, mean, slope);
-      all_.with_values(trains.size, trains.states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
-        const auto find = [&](const TrainAverage& average, std::size_t i, std::size_t count, const double* theta) {
-          const std::size_t first = begin + i;
-          average.mean_strengths({count, trains.fastest + first, trains.s + first, {theta, 1}}, closure, mean + first,
-                                 slope == nullptr ? nullptr : slope + first);
-        };
-        find_G(some, at);
-        find(mean_of_one_, 0, some, at.G);
-        for (std::size_t i = 0; i < some; ++i) {
-          mean[begin + i] *= at.of[direct][i];
-          if (slope != nullptr) slope[begin + i] *= at.of[direct][i];
-          if (!(std::fabs(at.log_G[i]) < largest_log_G))
-            find(all_.law_at(trains.states.at(begin + i)).average(), i, 1, &at.theta[i]);
-        }
-      });
+      all_.with_values(
+          trains.size, trains.states, f0, velocity, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+            const auto find = [&](const TrainAverage& average, std::size_t i, std::size_t count, const double* theta) {
+              const std::size_t first = begin + i;
+              average.mean_strengths({count, trains.fastest + first, trains.s + first, {theta, 1}}, closure,
+                                     mean + first, slope == nullptr ? nullptr : slope + first);
+            };
+            find_G(some, at);
+            find(mean_of_one_, 0, some, at.G);
+            for (std::size_t i = 0; i < some; ++i) {
+              mean[begin + i] *= at.of[direct][i];
+              if (slope != nullptr) slope[begin + i] *= at.of[direct][i];
+              if (!(std::fabs(at.log_G[i]) < largest_log_G))
+                find(all_.law_at(trains.states.at(begin + i)).average(), i, 1, &at.theta[i]);
+            }
+          });
     }
 
    private:
@@ -244,15 +250,16 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
           of_one_(law.values()[kind] != 0 ? ContactAge::Kind::slip : ContactAge::Kind::ageing, 0, 1) {}
     void advance_all(std::size_t size, const Slips& slips, double time, std::size_t each,
                      double* state) const override {
-      all_.with_values(size, {state, each}, [&](std::size_t begin, std::size_t some, AtPositions& at) {
-        double mean[part_size], typical[part_size];
-        for (std::size_t i = 0; i < some; ++i) {
-          mean[i] = slips.mean[begin + i] / at.of[distance][i];
-          typical[i] = slips.typical[begin + i] / at.of[distance][i];
-        }
-        of_one_.advance_all(some, {mean, typical}, time, 1, at.theta);
-        for (std::size_t i = 0; i < some; ++i) state[(begin + i) * each] = at.theta[i];
-      });
+      all_.with_values(size, {state, each}, distance, distance,
+                       [&](std::size_t begin, std::size_t some, AtPositions& at) {
+                         double mean[part_size], typical[part_size];
+                         for (std::size_t i = 0; i < some; ++i) {
+                           mean[i] = slips.mean[begin + i] / at.of[distance][i];
+                           typical[i] = slips.typical[begin + i] / at.of[distance][i];
+                         }
+                         of_one_.advance_all(some, {mean, typical}, time, 1, at.theta);
+                         for (std::size_t i = 0; i < some; ++i) state[(begin + i) * each] = at.theta[i];
+                       });
     }
 
    private:

@@ -11,18 +11,34 @@ constexpr double most_exponent = 300;  ///< limit of |ln G|, because asinh_branc
 
 }  // namespace
 
-SLIPFRONT_CLONES bool forces(const AsinhForce& law, std::size_t size, const double* speed, const double* theta,
-                             double* force) {
-  const AsinhForce r = law;
+namespace {
+
+const double most_G = std::exp(most_exponent), least_G = 1 / most_G;
+
+template <bool of_G>
+[[gnu::always_inline]] inline bool forces_in_loop(const AsinhForce& r, std::size_t size, const double* speed,
+                                                  const double* theta, double* force) {
+  const double least = least_G, most = most_G;
   std::size_t outside = 0;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) {
-    const double E = r.exponent_branch_free(theta[j]);
-    const double x = at_most(speed[j] * exp_branch_free(at_most(at_least(E, -most_exponent), most_exponent)), 1e150);
+    double G = theta[j];
+    if constexpr (!of_G)
+      G = exp_branch_free(at_most(at_least(r.exponent_branch_free(G), -most_exponent), most_exponent));
+    const double x = at_most(speed[j] * at_most(G, most), 1e150);
     force[j] = r.a * asinh_branch_free(x, std::sqrt(1 + x * x));
-    outside += std::fabs(E) < most_exponent ? 0u : 1u;
+    outside += (G > least) & (G < most) ? 0u : 1u;
   }
   return outside == 0;
+}
+
+}  // namespace
+
+SLIPFRONT_CLONES bool forces(const AsinhForce& law, std::size_t size, const double* speed, const double* theta,
+                             double* force) {
+  const AsinhForce r = law;
+  return r.is_of_G() ? forces_in_loop<true>(r, size, speed, theta, force)
+                     : forces_in_loop<false>(r, size, speed, theta, force);
 }
 
 bool within_exponents(const AsinhForce& law, double theta) {
@@ -60,11 +76,17 @@ SLIPFRONT_CLONES void start_series(const AsinhForce& law, std::size_t size, cons
   const double d = weight * r.a;
   double *const s = at.s, *const G_out = at.G, *const root = start.root;
   double *const step_at = start.step, *const inverse_at = start.inverse;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) G_out[j] = r.exponent_branch_free(theta[j]);
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j)
-    G_out[j] = exp_branch_free(at_most(at_least(G_out[j], -most_exponent), most_exponent));
+  if (r.is_of_G()) {
+    const double least = least_G, most = most_G;
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t j = 0; j < size; ++j) G_out[j] = at_most(at_least(theta[j], least), most);
+  } else {
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t j = 0; j < size; ++j) G_out[j] = r.exponent_branch_free(theta[j]);
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t j = 0; j < size; ++j)
+      G_out[j] = exp_branch_free(at_most(at_least(G_out[j], -most_exponent), most_exponent));
+  }
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) {
     const double x = at_least(at_least(free[j], slowest) * G_out[j], slowest);

@@ -16,6 +16,8 @@ struct AsinhForce {
   double base = 0;
   double share = 0;
 
+  /// Whether G is theta itself.
+  bool is_of_G() const { return base == 0 && share == 1; }
   double exponent(double theta) const { return base + share * std::log(theta); }
   SLIPFRONT_INLINE double exponent_branch_free(double theta) const {
     return base + share * log_branch_free(at_least(theta, least_theta));
