@@ -76,6 +76,7 @@ class RunObserver {
   /// Widths of the windows: of slip, and of velocity and stress. Where two trains meet, that of velocity and stress is
   /// the best of those from smooth_window_ to widest_window_.
   double window_ = 0, smooth_window_ = 0, widest_window_ = 0;
+  double densest_ = 0;  ///< the smaller spacing of the trains on either side of x = 0
   // Values at t = 0.
   std::vector<double> first_u_;  ///< averages over the output cells
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;

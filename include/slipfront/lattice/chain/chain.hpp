@@ -34,6 +34,7 @@ struct Window {
   std::vector<double> stress;            ///< -u_x; of a lattice, the mean of the bonds on either side
   std::vector<double> contact_squared;   ///< a^2, at the present time
   std::vector<double> effective_stress;  ///< 1 - p, that over the normal stress; 1 without pores; at the present time
+  std::vector<double> energy = {};       ///< u_t^2 / 2 + u_x^2 / 2 + a^2 (1 - cos u); of Sites::known only
 };
 
 /// Energy that entered and left the chain since the start, in units of Eq. 3.
@@ -75,6 +76,8 @@ class Sites {
   /// Returns sites of this rank and at most 4 sites next to them. After each step, call `exchange` before the first
   /// window.
   virtual Window own_window(std::size_t begin, std::size_t end, double time) const = 0;
+  /// All sites at the present time, if they are known already; else null.
+  virtual const Window* known() const { return nullptr; }
 
   virtual SpringEnergy spring_energy() const = 0;
   /// Mean force on a site, or the stress at the pulled end, if springs load the chain; otherwise 0.

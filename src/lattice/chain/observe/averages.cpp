@@ -118,9 +118,22 @@ void refuse_window(const Grid& grid, double x, double width) {
 
 namespace {
 
+/// Sites of a chain at a time: those that are known already, or those that are asked for.
+class SomeSites {
+ public:
+  SomeSites(const Sites& chain, std::size_t begin, std::size_t end, double time) : known_(chain.known()) {
+    if (known_ == nullptr) found_ = chain.window(begin, end, time);
+  }
+  const Window& operator*() const { return known_ != nullptr ? *known_ : found_; }
+
+ private:
+  const Window* known_;
+  Window found_;
+};
+
 /// The sites around a window, and its ends, counted in these sites.
 struct SitesOfWindow {
-  Window sites;
+  SomeSites sites;
   double from, to;
   double mean(const std::vector<double>& values) const { return integral(values, from, to) / (to - from); }
 };
@@ -131,21 +144,23 @@ SitesOfWindow sites_of_window(const Sites& chain, double x, double width, double
   const double from = (x - width / 2 - grid.left) / grid.spacing, to = (x + width / 2 - grid.left) / grid.spacing;
   if (!(width > 0) || !(from >= 0) || !(to <= last)) refuse_window(grid, x, width);
   const double begin = std::fmax(0, std::floor(from) - 3), end = std::fmin(last, std::ceil(to) + 3);
-  return {chain.window(static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1, time), from - begin,
-          to - begin};
+  const SomeSites sites(chain, static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1, time);
+  const auto first = static_cast<double>((*sites).begin);
+  return {sites, from - first, to - first};
 }
 
 }  // namespace
 
 Average average(const Sites& chain, double x, double width, double time) {
   const SitesOfWindow w = sites_of_window(chain, x, width, time);
-  return {x, width, w.mean(w.sites.u), w.mean(w.sites.velocity),
-          (interpolated(w.sites.u, w.from) - interpolated(w.sites.u, w.to)) / width};
+  const Window& sites = *w.sites;
+  return {x, width, w.mean(sites.u), w.mean(sites.velocity),
+          (interpolated(sites.u, w.from) - interpolated(sites.u, w.to)) / width};
 }
 
 double average_displacement(const Sites& chain, double x, double width, double time) {
   const SitesOfWindow w = sites_of_window(chain, x, width, time);
-  return w.mean(w.sites.u);
+  return w.mean((*w.sites).u);
 }
 
 namespace {
@@ -177,16 +192,22 @@ bool is_whole(const Grid& grid, double x, double width) {
 
 }  // namespace
 
+double energy_density(const Problem& p, const Window& w, std::size_t j) {
+  const std::size_t i = j - w.begin;
+  const auto u = [&](std::size_t site) { return w.u[site - w.begin]; };
+  return w.velocity[i] * w.velocity[i] / 2 + w.contact_squared[i] * (1 - std::cos(w.u[i])) +
+         elastic_energy(u, j, p.grid.sites, p.grid.spacing, p.model);
+}
+
 SmoothAverage smooth_average(const Sites& chain, double x, double width, double time) {
   const Range sites = around(chain.problem().grid, x, width);
-  return smooth_average(chain, chain.window(sites.low, sites.high, time), x, width);
+  return smooth_average(chain, *SomeSites(chain, sites.low, sites.high, time), x, width);
 }
 
 SmoothAverage smooth_average(const Sites& chain, const Window& w, double x, double width) {
   const Grid& grid = chain.problem().grid;
   const Range sites = around(grid, x, width);
   if (sites.low < w.begin || sites.high > w.begin + w.x.size()) refuse_window(grid, x, width);
-  const auto u = [&](std::size_t j) { return w.u[j - w.begin]; };
   // The weight and its slope vanish at the ends: the sum over sites is as good as the integral.
   SmoothAverage a{};
   double sum = 0;
@@ -196,8 +217,7 @@ SmoothAverage smooth_average(const Sites& chain, const Window& w, double x, doub
     sum += weight;
     a.velocity += weight * w.velocity[i];
     a.stress += weight * w.stress[i];
-    a.energy += weight * (w.velocity[i] * w.velocity[i] / 2 + w.contact_squared[i] * (1 - std::cos(u(j))) +
-                          elastic_energy(u, j, grid.sites, grid.spacing, chain.problem().model));
+    a.energy += weight * (w.energy.empty() ? energy_density(chain.problem(), w, j) : w.energy[i]);
   }
   if (!(sum > 0)) sum = 1;  // a single site, at the very end of the window
   a.velocity /= sum;
@@ -213,11 +233,11 @@ BestAverage best_average(const Sites& chain, double x, double least, double most
   while (width_of(candidates) <= most * (1 + 1e-9) && is_whole(grid, x, width_of(candidates + wider))) ++candidates;
   while (last < candidates - 1 + wider && is_whole(grid, x, width_of(last + 1))) ++last;
   const Range all = around(grid, x, width_of(last));
-  const Window sites = chain.window(all.low, all.high, time);
+  const SomeSites sites(chain, all.low, all.high, time);
   std::vector<SmoothAverage> averages;  // the first is that of width_of(-narrower)
   for (int i = -narrower; i <= last; ++i)
     averages.push_back(i < 0 && width_of(i) < 2 * grid.spacing ? SmoothAverage{none, none, none}
-                                                               : smooth_average(chain, sites, x, width_of(i)));
+                                                               : smooth_average(chain, *sites, x, width_of(i)));
   const auto average_at = [&](int i) -> const SmoothAverage& { return *(averages.begin() + narrower + i); };
   BestAverage best{};
   for (int i = 0; i < candidates; ++i) {

@@ -68,6 +68,10 @@ struct SmoothAverage {
   double energy;    ///< u_t^2 / 2 + u_x^2 / 2 + a^2 (1 - cos u)
 };
 
+/// The energy density u_t^2 / 2 + u_x^2 / 2 + a^2 (1 - cos u) at site j, one of a window that has two more on either
+/// side as far as there are sites.
+double energy_density(const Problem& problem, const Window& sites, std::size_t j);
+
 /// (all) Averages around x with the weight 1 + cos(2 pi (x' - x) / width). The window has this width, and is cut at the
 /// ends of the chain. `time` may be at most a step away. In a uniform average at a small scale, one dislocation more or
 /// less would change the velocity much. With this weight, the ripple of the train falls with the cube of the number of
