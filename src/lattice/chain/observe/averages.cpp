@@ -87,7 +87,7 @@ std::vector<double> displacements(const Sites& chain, double time) {
   return chain.ranks().joined_at_first(mine);
 }
 
-double interpolated(const std::vector<double>& v, double r) {
+double interpolated(std::span<const double> v, double r) {
   const long n = static_cast<long>(v.size()), points = std::min<long>(6, n);
   const long first = std::clamp<long>(static_cast<long>(std::floor(r)) - points / 2 + 1, 0, n - points);
   const auto weights = equidistant_weights(static_cast<std::size_t>(points), r - static_cast<double>(first));
@@ -97,7 +97,7 @@ double interpolated(const std::vector<double>& v, double r) {
   return sum;
 }
 
-double integral(const std::vector<double>& v, double from, double to) {
+double integral(std::span<const double> v, double from, double to) {
   double sum = 0;
   for (double a = from; a < to;) {  // Gauss-Legendre with three points in every interval of the grid
     const double b = std::fmin(std::floor(a) + 1, to), middle = (a + b) / 2, half = (b - a) / 2;
@@ -121,12 +121,17 @@ namespace {
 /// Sites of a chain at a time: those that are known already, or those that are asked for.
 class SomeSites {
  public:
-  SomeSites(const Sites& chain, std::size_t begin, std::size_t end, double time) : known_(chain.known()) {
+  SomeSites(const Sites& chain, std::size_t begin, std::size_t end, double time)
+      : begin_(begin), size_(end - begin), known_(chain.known()) {
     if (known_ == nullptr) found_ = chain.window(begin, end, time);
   }
-  const Window& operator*() const { return known_ != nullptr ? *known_ : found_; }
+  const Window& window() const { return known_ != nullptr ? *known_ : found_; }
+  std::span<const double> operator()(std::vector<double> Window::*values) const {
+    return std::span(window().*values).subspan(begin_ - window().begin, size_);
+  }
 
  private:
+  std::size_t begin_, size_;
   const Window* known_;
   Window found_;
 };
@@ -135,7 +140,7 @@ class SomeSites {
 struct SitesOfWindow {
   SomeSites sites;
   double from, to;
-  double mean(const std::vector<double>& values) const { return integral(values, from, to) / (to - from); }
+  double mean(std::vector<double> Window::*values) const { return integral(sites(values), from, to) / (to - from); }
 };
 
 SitesOfWindow sites_of_window(const Sites& chain, double x, double width, double time) {
@@ -144,23 +149,20 @@ SitesOfWindow sites_of_window(const Sites& chain, double x, double width, double
   const double from = (x - width / 2 - grid.left) / grid.spacing, to = (x + width / 2 - grid.left) / grid.spacing;
   if (!(width > 0) || !(from >= 0) || !(to <= last)) refuse_window(grid, x, width);
   const double begin = std::fmax(0, std::floor(from) - 3), end = std::fmin(last, std::ceil(to) + 3);
-  const SomeSites sites(chain, static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1, time);
-  const auto first = static_cast<double>((*sites).begin);
-  return {sites, from - first, to - first};
+  return {{chain, static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1, time}, from - begin, to - begin};
 }
 
 }  // namespace
 
 Average average(const Sites& chain, double x, double width, double time) {
   const SitesOfWindow w = sites_of_window(chain, x, width, time);
-  const Window& sites = *w.sites;
-  return {x, width, w.mean(sites.u), w.mean(sites.velocity),
-          (interpolated(sites.u, w.from) - interpolated(sites.u, w.to)) / width};
+  const std::span<const double> u = w.sites(&Window::u);
+  return {x, width, w.mean(&Window::u), w.mean(&Window::velocity),
+          (interpolated(u, w.from) - interpolated(u, w.to)) / width};
 }
 
 double average_displacement(const Sites& chain, double x, double width, double time) {
-  const SitesOfWindow w = sites_of_window(chain, x, width, time);
-  return w.mean((*w.sites).u);
+  return sites_of_window(chain, x, width, time).mean(&Window::u);
 }
 
 namespace {
@@ -201,7 +203,7 @@ double energy_density(const Problem& p, const Window& w, std::size_t j) {
 
 SmoothAverage smooth_average(const Sites& chain, double x, double width, double time) {
   const Range sites = around(chain.problem().grid, x, width);
-  return smooth_average(chain, *SomeSites(chain, sites.low, sites.high, time), x, width);
+  return smooth_average(chain, SomeSites(chain, sites.low, sites.high, time).window(), x, width);
 }
 
 SmoothAverage smooth_average(const Sites& chain, const Window& w, double x, double width) {
@@ -237,7 +239,7 @@ BestAverage best_average(const Sites& chain, double x, double least, double most
   std::vector<SmoothAverage> averages;  // the first is that of width_of(-narrower)
   for (int i = -narrower; i <= last; ++i)
     averages.push_back(i < 0 && width_of(i) < 2 * grid.spacing ? SmoothAverage{none, none, none}
-                                                               : smooth_average(chain, *sites, x, width_of(i)));
+                                                               : smooth_average(chain, sites.window(), x, width_of(i)));
   const auto average_at = [&](int i) -> const SmoothAverage& { return *(averages.begin() + narrower + i); };
   BestAverage best{};
   for (int i = 0; i < candidates; ++i) {

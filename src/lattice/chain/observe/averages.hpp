@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "lattice/chain/model/blocks.hpp"
@@ -39,10 +40,10 @@ void for_own_sites(const Sites& chain, const Measure& measure, const Done& done)
 }
 
 /// Lagrange interpolation of v through the (up to) six sites around r (counted in sites of v).
-double interpolated(const std::vector<double>& v, double r);
+double interpolated(std::span<const double> v, double r);
 
 /// Integral of the interpolant over [from, to], in sites.
-double integral(const std::vector<double>& v, double from, double to);
+double integral(std::span<const double> v, double from, double to);
 
 /// \throws InputError: a window that is not on the chain, or has no width.
 [[noreturn]] void refuse_window(const Grid& grid, double x, double width);
