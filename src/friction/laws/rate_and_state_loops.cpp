@@ -27,7 +27,7 @@ template <bool of_G>
       G = exp_branch_free(at_most(at_least(r.exponent_branch_free(G), -most_exponent), most_exponent));
     const double x = at_most(speed[j] * at_most(G, most), 1e150);
     force[j] = r.a * asinh_branch_free(x, std::sqrt(1 + x * x));
-    outside += (G > least) & (G < most) ? 0u : 1u;
+    outside += (G > least && G < most) ? 0u : 1u;
   }
   return outside == 0;
 }
