@@ -82,6 +82,8 @@ class Friction {
   /// Number of values that the friction of a position depends on and that solvers keep: the state variables of the law,
   /// and its parameters that vary.
   std::size_t state_size() const { return definition_->state.size() + columns_.size(); }
+  /// Whether any of them change. Parameters that vary do not.
+  bool state_evolves() const { return !definition_->state.empty(); }
   /// Their names.
   std::vector<std::string> state_names() const;
   /// Sets these values at a position at t = 0.

@@ -219,6 +219,8 @@ class Forces {
   double* state_of(long j) { return state_.data() + variables_ * at(j); }
   const double* state_of(long j) const { return state_.data() + variables_ * at(j); }
   std::size_t variables() const { return variables_; }
+  /// Whether any of them change.
+  bool ages() const { return problem_.friction.state_evolves(); }
   /// Advances the state variables of `size` sites from site `first` on by the step from `now` to `next`.
   void age(long first, std::size_t size, const double* now, const double* next, double* states);
   /// The state variables of sites [begin, end), site by site. Most laws have none.

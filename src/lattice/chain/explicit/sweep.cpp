@@ -282,7 +282,7 @@ void Sweep::finish_step(const Tile& t, const LevelSites& s) {
                 .scratch = y_.data() + own,
                 .further = applied_.data() + own});
   }
-  if (forces_.variables() > 0 && !forces_.contacts().acts())
+  if (forces_.ages() && !forces_.contacts().acts())
     forces_.age(t.offset + static_cast<long>(s.left), s.right - s.left, s.before + s.left, s.now + s.left,
                 states_.data() + forces_.variables() * s.left);
 }

@@ -103,7 +103,7 @@ double SiteFriction::rub_by_law(std::size_t j, bool began, const double* before,
 }
 
 void SiteFriction::age(std::size_t j, const double* now, const double* after) {
-  if (each_ == 0) return;
+  if (!friction_.state_evolves()) return;
   std::vector<double> speed(sites_.nx);
   for (std::size_t i = 0; i < sites_.nx; ++i) speed[i] = std::fabs(after[i] - now[i]) / dt_;
   friction_.evolution().advance_all(sites_.nx, friction::Slips::at(speed.data()), dt_, each_,
