@@ -1,34 +1,15 @@
-#include <algorithm>
 #include <cmath>
 
+#include "friction/laws/force_of_speed.hpp"
 #include "math/simd/elementary.hpp"
-#include "math/simd/vector_code.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {
 namespace {
 
-SLIPFRONT_CLONES void slow(double most, std::size_t size, const double* share, const double* free, double* speed) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) speed[i] = at_least(free[i] - (share == nullptr ? most : most * share[i]), 0);
-}
-
-class CoulombLoops final : public ForceLoops {
- public:
-  CoulombLoops(const Law& law, double coefficient) : ForceLoops(law), C_(coefficient) {}
-  void strengths(std::size_t size, const double*, LocalStates, double* force) const override {
-    std::fill_n(force, size, C_);
-  }
-  void speeds_after(std::size_t size, const double* free, double weight, LocalStates, double* speed) const override {
-    slow(weight * C_, size, nullptr, free, speed);
-  }
-  void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, LocalStates,
-                          double* speed) const override {
-    slow(weight * C_, size, share, free, speed);
-  }
-
- private:
-  double C_;
+struct ClosedCoulomb {
+  SLIPFRONT_INLINE static double force(double C, double) { return C; }
+  SLIPFRONT_INLINE static double slowed(double s, double free) { return at_least(free - s, 0); }
 };
 
 class Coulomb final : public Law {
@@ -41,7 +22,7 @@ class Coulomb final : public Law {
 
  private:
   double C_;
-  CoulombLoops loops_;
+  ClosedLoops<ClosedCoulomb> loops_;
 };
 
 }  // namespace

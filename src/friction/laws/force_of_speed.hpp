@@ -39,6 +39,39 @@ class ForceOfSpeed final : public Law {
   Loops loops_;
 };
 
+template <class Closed>
+SLIPFRONT_CLONES void closed_forces(double C, std::size_t size, const double* speed, double* force) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) force[i] = Closed::force(C, speed[i]);
+}
+template <class Closed>
+SLIPFRONT_CLONES void closed_speeds(double s, std::size_t size, const double* share, const double* free,
+                                    double* speed) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) speed[i] = Closed::slowed(share == nullptr ? s : s * share[i], free[i]);
+}
+
+/// Vector code of a law for which the speed after friction has a closed form. With its coefficient C, `force(C, w)` is
+/// f, and `slowed(s, free)` solves v + s f(v) / C = free.
+template <class Closed>
+class ClosedLoops final : public ForceLoops {
+ public:
+  ClosedLoops(const Law& law, double coefficient) : ForceLoops(law), C_(coefficient) {}
+  void strengths(std::size_t size, const double* speed, LocalStates, double* force) const override {
+    closed_forces<Closed>(C_, size, speed, force);
+  }
+  void speeds_after(std::size_t size, const double* free, double weight, LocalStates, double* speed) const override {
+    closed_speeds<Closed>(weight * C_, size, nullptr, free, speed);
+  }
+  void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, LocalStates,
+                          double* speed) const override {
+    closed_speeds<Closed>(weight * C_, size, share, free, speed);
+  }
+
+ private:
+  double C_;
+};
+
 /// Positions in one pass of the loops over many positions, whose values then fit into the nearest cache.
 constexpr std::size_t part_size = 64;
 

@@ -122,36 +122,10 @@ void PowerRate::rates(std::size_t size, const double* fastest, const double* psi
   }
 }
 
-/// f = C w^2, for which v + s v^2 = free has a closed form.
-SLIPFRONT_CLONES void squared_forces(double C, std::size_t size, const double* speed, double* force) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) force[i] = C * (speed[i] * speed[i]);
-}
-SLIPFRONT_CLONES void speeds_after_squares(double s, std::size_t size, const double* share, const double* free,
-                                           double* speed) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) {
-    const double by = share == nullptr ? s : s * share[i];
-    speed[i] = 2 * free[i] / (1 + std::sqrt(1 + 4 * by * free[i]));
-  }
-}
-
-class SquareLoops final : public ForceLoops {
- public:
-  SquareLoops(const Law& law, double coefficient) : ForceLoops(law), C_(coefficient) {}
-  void strengths(std::size_t size, const double* speed, LocalStates, double* force) const override {
-    squared_forces(C_, size, speed, force);
-  }
-  void speeds_after(std::size_t size, const double* free, double weight, LocalStates, double* speed) const override {
-    speeds_after_squares(weight * C_, size, nullptr, free, speed);
-  }
-  void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, LocalStates,
-                          double* speed) const override {
-    speeds_after_squares(weight * C_, size, share, free, speed);
-  }
-
- private:
-  double C_;
+/// f = C w^2
+struct ClosedSquare {
+  SLIPFRONT_INLINE static double force(double C, double speed) { return C * (speed * speed); }
+  SLIPFRONT_INLINE static double slowed(double s, double free) { return 2 * free / (1 + std::sqrt(1 + 4 * s * free)); }
 };
 
 class PowerLoops final : public ForceLoops {
@@ -222,7 +196,7 @@ class Power final : public Law {
  private:
   double C_, n_;
   PowerLoops loops_;
-  SquareLoops square_loops_;
+  ClosedLoops<ClosedSquare> square_loops_;
   PowerAverage average_;
 };
 

@@ -1,7 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "math/simd/vector_code.hpp"
+#include "friction/laws/force_of_speed.hpp"
+#include "math/simd/elementary.hpp"
 #include "slipfront/friction/law.hpp"
 #include "slipfront/math/elliptic.hpp"
 #include "slipfront/theory/train.hpp"
@@ -44,32 +45,9 @@ class ViscousAverage final : public QuadratureAverage {
   double C_;
 };
 
-SLIPFRONT_CLONES void scale_speeds(double by, std::size_t size, const double* speed, double* force) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) force[i] = by * speed[i];
-}
-SLIPFRONT_CLONES void slow_viscously(double by, std::size_t size, const double* share, const double* free,
-                                     double* speed) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) speed[i] = free[i] / (1 + (share == nullptr ? by : by * share[i]));
-}
-
-class ViscousLoops final : public ForceLoops {
- public:
-  ViscousLoops(const Law& law, double coefficient) : ForceLoops(law), C_(coefficient) {}
-  void strengths(std::size_t size, const double* speed, LocalStates, double* force) const override {
-    scale_speeds(C_, size, speed, force);
-  }
-  void speeds_after(std::size_t size, const double* free, double weight, LocalStates, double* speed) const override {
-    slow_viscously(weight * C_, size, nullptr, free, speed);
-  }
-  void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, LocalStates,
-                          double* speed) const override {
-    slow_viscously(weight * C_, size, share, free, speed);
-  }
-
- private:
-  double C_;
+struct ClosedViscous {
+  SLIPFRONT_INLINE static double force(double C, double speed) { return C * speed; }
+  SLIPFRONT_INLINE static double slowed(double s, double free) { return free / (1 + s); }
 };
 
 class Viscous final : public Law {
@@ -83,7 +61,7 @@ class Viscous final : public Law {
 
  private:
   double C_;
-  ViscousLoops loops_;
+  ClosedLoops<ClosedViscous> loops_;
   ViscousAverage average_;
 };
 

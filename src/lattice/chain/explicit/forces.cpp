@@ -60,20 +60,20 @@ void ForcingInTime::call_formula(long level) {
   double *const before = terms_[0].data(), *const now = terms_[1].data(), *const next = terms_[2].data();
   for (std::size_t j = 0; level == 0 && j < x_.size(); ++j) before[j] += 3 * now[j] - 3 * next[j];
   called_ = level;
-  find_sums_beside();
+  find_sums_of_neighbours();
 }
 
 void ForcingInTime::resize_terms(std::size_t count) {
-  for (auto* arrays : {&terms_, &beside_}) {
+  for (auto* arrays : {&terms_, &sums_of_neighbours_}) {
     while (arrays->size() < count) arrays->emplace_back(x_.size());
     arrays->resize(count);
   }
 }
 
-void ForcingInTime::find_sums_beside() {
+void ForcingInTime::find_sums_of_neighbours() {
   for (std::size_t s = 0; s < terms_.size(); ++s) {
     const double* const X = terms_[s].data();
-    double* const sums = beside_[s].data();
+    double* const sums = sums_of_neighbours_[s].data();
     for (std::size_t j = 1; j + 1 < x_.size(); ++j) sums[j] = X[j - 1] + X[j + 1];
   }
 }
@@ -82,7 +82,7 @@ ForceTerms ForcingInTime::terms(std::size_t site) const {
   ForceTerms F{.count = terms_.size()};
   for (std::size_t s = 0; s < F.count; ++s) {
     F.X[s] = terms_[s].data() + site;
-    F.beside[s] = beside_[s].data() + site;
+    F.sums_of_neighbours[s] = sums_of_neighbours_[s].data() + site;
   }
   return F;
 }
@@ -131,7 +131,7 @@ void ForcingInTime::choose(long level, const Ranks& ranks) {
     begin_ = level / levels * levels;
     end_ = begin_ + levels;
     polynomial_ = fits(ranks) && decompose(ranks);
-    if (polynomial_) return find_sums_beside();
+    if (polynomial_) return find_sums_of_neighbours();
   }
 }
 
@@ -382,12 +382,12 @@ void Forces::add_load(const LevelSites& s, std::size_t begin, std::size_t end) c
   }
   const double strength = scheme_.force / turn;
   const auto &before = weights(s.ahead - 1), &now = weights(s.ahead), &next = weights(s.ahead + 1);
-  ForceTerms::Weights own{}, beside{};
+  ForceTerms::Weights own{}, of_neighbours{};
   for (std::size_t i = 0; i < own.size(); ++i) {
     own[i] = strength * (scheme_.share_next * next[i] + scheme_.share_before * before[i] + scheme_.share_now * now[i]);
-    beside[i] = strength * scheme_.share_neighbour * now[i];
+    of_neighbours[i] = strength * scheme_.share_neighbour * now[i];
   }
-  add_drive(terms(first), own, beside, s.next + begin, end - begin);
+  add_drive(terms(first), own, of_neighbours, s.next + begin, end - begin);
 }
 
 void Forces::add_friction(const LevelSites& s, std::size_t begin, std::size_t end) const {

@@ -128,7 +128,7 @@ class ForcingInTime {
   /// (all) Whether ForceTerms::most terms are enough.
   bool decompose(const Ranks& ranks);
   void resize_terms(std::size_t count);
-  void find_sums_beside();
+  void find_sums_of_neighbours();
   /// Sites between those that are compared at a level.
   std::size_t apart() const { return static_cast<std::size_t>(std::min(end_ - begin_, 1024L)); }
 
@@ -141,7 +141,7 @@ class ForcingInTime {
   double most_ = 0;   ///< largest |F| at the nodes, of all ranks
   std::array<std::vector<double>, nodes> values_;
   std::vector<NodeWeights> nodes_of_terms_;  ///< weights of a term in the values at the nodes
-  std::vector<Aligned> terms_, beside_;
+  std::vector<Aligned> terms_, sums_of_neighbours_;
   std::vector<ForceTerms::Weights> weights_;  ///< weights of the terms, at each level from the one before on
 };
 

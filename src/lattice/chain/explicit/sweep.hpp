@@ -20,12 +20,10 @@ class WorkMeter {
   WorkMeter(const Problem& problem, const Scheme& scheme, const Blocks& blocks, std::size_t first_block,
             std::size_t end_block);
 
-  /// Whether there is any work to measure.
-  bool active() const { return !begins_.empty(); }
   /// The measure of each step in the first loop.
   Measured of_each_step() const { return of_each_step_; }
   /// Whether the work needs the step before each step.
-  bool needs_step_before() const { return active() && problem_->forcing && !problem_->steady_forcing; }
+  bool needs_step_before() const { return problem_->forcing && !problem_->steady_forcing; }
   /// The measure of the first loop on sites [begin, end), whole blocks that are at `at` in its arrays.
   StepOfU step(std::size_t begin, std::size_t end, std::size_t at);
 

@@ -276,7 +276,7 @@ template <class Loop>
 
 struct AddDrive {
   const ForceTerms& F;
-  const ForceTerms::Weights &own, &beside;
+  const ForceTerms::Weights &own, &of_neighbours;
   double* next;
   std::size_t size;
 
@@ -286,9 +286,9 @@ struct AddDrive {
     double c[n], b[n];
     for (std::size_t s = 0; s < n; ++s) {
       X[s] = F.X[first + s];
-      Y[s] = F.beside[first + s];
+      Y[s] = F.sums_of_neighbours[first + s];
       c[s] = own[first + s];
-      b[s] = beside[first + s];
+      b[s] = of_neighbours[first + s];
     }
     SLIPFRONT_INDEPENDENT
     for (std::size_t j = 0; j < size; ++j) {
@@ -301,9 +301,9 @@ struct AddDrive {
 
 }  // namespace
 
-SLIPFRONT_CLONES void add_drive(const ForceTerms& F, const ForceTerms::Weights& own, const ForceTerms::Weights& beside,
-                                double* next, std::size_t size) {
-  each_term(F, AddDrive{F, own, beside, next, size});
+SLIPFRONT_CLONES void add_drive(const ForceTerms& F, const ForceTerms::Weights& own,
+                                const ForceTerms::Weights& of_neighbours, double* next, std::size_t size) {
+  each_term(F, AddDrive{F, own, of_neighbours, next, size});
 }
 
 SLIPFRONT_CLONES void add_steady_drive(const double* drive, double* next, std::size_t size) {

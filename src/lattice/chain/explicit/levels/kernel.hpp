@@ -108,18 +108,18 @@ void measure_step(const StepOfU& step, const double* u_next, std::size_t size);
 void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end);
 
 /// A force on consecutive sites as a sum of functions X of x, each times a weight that changes from level to level.
-/// `beside` are the sums of X at both neighbours of each site.
+/// `sums_of_neighbours` are the sums of X at both neighbours of each site.
 struct ForceTerms {
   static constexpr std::size_t most = 8;
   using Weights = std::array<double, most>;
 
   std::size_t count = 0;
-  std::array<const double*, most> X = {}, beside = {};
+  std::array<const double*, most> X = {}, sums_of_neighbours = {};
 };
 /// Adds to z at the next level the effect of a force, which is shared among the five points of the diamond: `own` are
-/// the weights of X at the site, `beside` those of its neighbours.
-void add_drive(const ForceTerms& F, const ForceTerms::Weights& own, const ForceTerms::Weights& beside, double* next,
-               std::size_t size);
+/// the weights of X at the site, `of_neighbours` those at its neighbours.
+void add_drive(const ForceTerms& F, const ForceTerms::Weights& own, const ForceTerms::Weights& of_neighbours,
+               double* next, std::size_t size);
 /// Adds `drive`, which is that effect of a force that does not change.
 void add_steady_drive(const double* drive, double* next, std::size_t size);
 /// Applies Coulomb friction: shortens each step from `now` to `next` by `most`, but not below zero. Friction can stop a
