@@ -13,7 +13,7 @@ class NoState final : public StateEvolution {
  public:
   void start(std::span<double>) const override {}
   void advance(const Slip&, double, std::span<double>) const override {}
-  void advance_all(std::size_t, const Slips&, double, std::size_t, double*) const override {}
+  void advance_all(std::size_t, const Slips&, double, EvolvingStates) const override {}
 };
 
 }  // namespace
@@ -80,9 +80,12 @@ const Parameter* Definition::find(std::string_view parameter) const {
   return nullptr;
 }
 
-void StateEvolution::advance_all(std::size_t size, const Slips& slips, double time, std::size_t each,
-                                 double* state) const {
-  for (std::size_t i = 0; i < size; ++i) advance({slips.mean[i], slips.typical[i]}, time, {state + i * each, each});
+void StateEvolution::advance_all(std::size_t size, const Slips& slips, double time, EvolvingStates states) const {
+  for (std::size_t i = 0; i < size; ++i) {
+    LocalValues here = states.at(i);
+    advance({slips.mean[i], slips.typical[i]}, time, here);
+    for (std::size_t v = 0; v < states.each; ++v) states(i, v) = here[v];
+  }
 }
 
 const StateEvolution& Law::evolution() const {

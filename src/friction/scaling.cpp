@@ -12,6 +12,7 @@
 
 #include "friction/laws/force_of_speed.hpp"
 #include "math/digits.hpp"
+#include "math/simd/vector_code.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction {
@@ -102,43 +103,36 @@ void check_no_force(const Definition& definition, const std::vector<double>& val
 
 namespace {
 
-/// The states of a part of the positions, taken apart into those of the law and the shares.
-class Apart {
- public:
-  Apart(std::size_t size, LocalStates states) : own_(states.each - 1) {
-    thread_local std::vector<double> values;  // kept between calls, which then allocate nothing
-    values.resize(part_size * own_);
-    law_ = values.data();
-    for (std::size_t i = 0; i < size; ++i) {
-      const LocalState state = states.at(i);
-      std::copy_n(state.begin(), own_, law_ + i * own_);
-      share[i] = state.back();
-    }
-  }
-  LocalStates law() const { return {law_, own_}; }
-  double* law_values() { return law_; }
-  double share[part_size];
+/// Calls `task` with a position, a number of positions from it on, and their shares of the force, the last of their
+/// variables. These are all positions if the shares are next to each other, or else parts of them.
+template <class Task>
+void with_shares(std::size_t size, LocalStates states, const Task& task) {
+  double copies[part_size];
+  if (states.next == 1) return task(0, size, states.column(states.each - 1, size, copies));
+  in_parts(size, [&](std::size_t begin, std::size_t some) {
+    task(begin, some, states.from(begin).column(states.each - 1, some, copies));
+  });
+}
 
- private:
-  std::size_t own_;
-  double* law_;
-};
+/// Without the share.
+template <class States>
+States of_law(States states) {
+  return states.first(states.each - 1);
+}
 
 class ScaledLoops final : public ForceLoops {
  public:
   ScaledLoops(const Law& law, const Law& one) : ForceLoops(law), one_(one) {}
   void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
-    in_parts(size, [&](std::size_t begin, std::size_t some) {
-      const Apart at(some, states.from(begin));
-      one_.loops().strengths(some, speed + begin, at.law(), force + begin);
-      for (std::size_t i = 0; i < some; ++i) force[begin + i] *= at.share[i];
+    with_shares(size, states, [&](std::size_t begin, std::size_t some, const double* share) {
+      one_.loops().strengths(some, speed + begin, of_law(states).from(begin), force + begin);
+      multiply(some, share, force + begin);
     });
   }
   void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
                     double* speed) const override {
-    in_parts(size, [&](std::size_t begin, std::size_t some) {
-      const Apart at(some, states.from(begin));
-      one_.loops().speeds_after_under(some, at.share, free + begin, weight, at.law(), speed + begin);
+    with_shares(size, states, [&](std::size_t begin, std::size_t some, const double* share) {
+      one_.loops().speeds_after_under(some, share, free + begin, weight, of_law(states).from(begin), speed + begin);
     });
   }
 
@@ -164,14 +158,11 @@ class ScaledAverage final : public TrainAverage {
     return state.back() * one_.average().mean_strength(train, contact, closure, state.first(state.size() - 1));
   }
   void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
-    in_parts(trains.size, [&](std::size_t begin, std::size_t some) {
-      const Apart at(some, trains.states.from(begin));
-      one_.average().mean_strengths({some, trains.fastest + begin, trains.s + begin, at.law()}, closure, mean + begin,
-                                    slope == nullptr ? nullptr : slope + begin);
-      for (std::size_t i = 0; i < some; ++i) {
-        mean[begin + i] *= at.share[i];
-        if (slope != nullptr) slope[begin + i] *= at.share[i];
-      }
+    with_shares(trains.size, trains.states, [&](std::size_t begin, std::size_t some, const double* share) {
+      one_.average().mean_strengths({some, trains.fastest + begin, trains.s + begin, of_law(trains.states).from(begin)},
+                                    closure, mean + begin, slope == nullptr ? nullptr : slope + begin);
+      multiply(some, share, mean + begin);
+      if (slope != nullptr) multiply(some, share, slope + begin);
     });
   }
   std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const override {
@@ -189,15 +180,8 @@ class ScaledEvolution final : public StateEvolution {
   void advance(const Slip& slip, double time, std::span<double> state) const override {
     if (state.size() > 1) one_.advance(slip, time, state.first(state.size() - 1));
   }
-  void advance_all(std::size_t size, const Slips& slips, double time, std::size_t each, double* state) const override {
-    if (each == 1) return;
-    const std::size_t own = each - 1;
-    in_parts(size, [&](std::size_t begin, std::size_t some) {
-      double* const to = state + begin * each;
-      Apart at(some, {to, each});
-      one_.advance_all(some, {slips.mean + begin, slips.typical + begin}, time, own, at.law_values());
-      for (std::size_t i = 0; i < some; ++i) std::copy_n(at.law_values() + i * own, own, to + i * each);
-    });
+  void advance_all(std::size_t size, const Slips& slips, double time, EvolvingStates states) const override {
+    if (states.each > 1) one_.advance_all(size, slips, time, of_law(states));
   }
 
  private:

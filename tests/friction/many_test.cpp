@@ -202,7 +202,7 @@ TEST(FrictionOfMany, FindsForcesAndSolvesAsForOnePosition) {
         EXPECT_NEAR(speed[i], v, 2e-12 * v + 1e-14 * free[i]) << friction.name() << " " << weight << " " << free[i];
         // The result does not depend on the other positions.
         double alone = -1;
-        friction.loops().speeds_after(1, &free[i], weight, {states.at(i).data(), states.each}, &alone);
+        friction.loops().speeds_after(1, &free[i], weight, states.from(i), &alone);
         EXPECT_EQ(alone, speed[i]) << friction.name() << " " << weight << " " << free[i];
       }
     }
@@ -220,13 +220,13 @@ TEST(FrictionOfMany, AdvancesStatesAsForOnePosition) {
       }
       in_train = all;
       const std::vector<double> before = all;
-      friction.evolution().advance_all(all.size(), Slips::at(velocity.data()), time, 1, all.data());
-      friction.evolution().advance_all(all.size(), {velocity.data(), typical.data()}, time, 1, in_train.data());
+      friction.evolution().advance_all(all.size(), Slips::at(velocity.data()), time, {all.data(), 1});
+      friction.evolution().advance_all(all.size(), {velocity.data(), typical.data()}, time, {in_train.data(), 1});
       for (std::size_t i = 0; i < all.size(); ++i) {
         double one[] = {before[i]}, train[] = {before[i]}, alone = before[i];
         friction.evolution().advance(Slip::at(velocity[i]), time, one);
         friction.evolution().advance({velocity[i], typical[i]}, time, train);
-        friction.evolution().advance_all(1, Slips::at(&velocity[i]), time, 1, &alone);
+        friction.evolution().advance_all(1, Slips::at(&velocity[i]), time, {&alone, 1});
         EXPECT_NEAR(all[i] / one[0], 1, 1e-12) << friction.name() << " " << velocity[i] << " " << time;
         EXPECT_NEAR(in_train[i] / train[0], 1, 1e-12) << friction.name() << " " << velocity[i] << " " << time;
         EXPECT_EQ(all[i], alone) << friction.name() << " " << velocity[i] << " " << time;

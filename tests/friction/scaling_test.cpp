@@ -39,13 +39,13 @@ class Pair {
 
   /// Lets every position slip at its own speed for a time.
   void slip(double time) {
-    one.evolution().advance_all(positions, Slips::at(speed), time, each_, one_state_.data());
-    many.evolution().advance_all(positions, Slips::at(speed), scale_ * time, each_, many_state_.data());
+    one.evolution().advance_all(positions, Slips::at(speed), time, {one_state_.data(), each_});
+    many.evolution().advance_all(positions, Slips::at(speed), scale_ * time, {many_state_.data(), each_});
   }
   void slip_in_trains(double time) {
     const double typical[] = {0, 2e-6, 0.03, 0.3, 4};
-    one.evolution().advance_all(positions, {speed, typical}, time, each_, one_state_.data());
-    many.evolution().advance_all(positions, {speed, typical}, scale_ * time, each_, many_state_.data());
+    one.evolution().advance_all(positions, {speed, typical}, time, {one_state_.data(), each_});
+    many.evolution().advance_all(positions, {speed, typical}, scale_ * time, {many_state_.data(), each_});
   }
 
   void expect_equal_forces(const std::string& when) const {

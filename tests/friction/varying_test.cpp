@@ -54,7 +54,7 @@ void expect_the_law_there(const Friction& friction, const std::vector<std::strin
     s[i] = 0.1 + 0.01 * static_cast<double>(i);
     there.push_back(local);
   }
-  friction.evolution().advance_all(size, {free.data(), free.data()}, 0.3, each, state.data());
+  friction.evolution().advance_all(size, {free.data(), free.data()}, 0.3, {state.data(), each});
   friction.loops().strengths(size, free.data(), {state.data(), each}, force.data());
   friction.loops().speeds_after(size, free.data(), 0.1, {state.data(), each}, speed.data());
   friction.average().mean_strengths({size, free.data(), s.data(), {state.data(), each}}, Closure::consistent,
@@ -139,7 +139,7 @@ TEST(VaryingFriction, EvolvesEquallyUnderAnyNormalStress) {
     const std::size_t each = under.state_size();
     std::vector<double> states(each * slip.size());
     for (std::size_t i = 0; i < slip.size(); ++i) under.start(0.7, 0.2, std::span(states).subspan(i * each, each));
-    under.evolution().advance_all(slip.size(), Slips::at(slip.data()), 0.3, each, states.data());
+    under.evolution().advance_all(slip.size(), Slips::at(slip.data()), 0.3, {states.data(), each});
     for (std::size_t i = 0; i < slip.size(); ++i) {
       std::vector<double> own = friction.state_at_start();
       friction.evolution().advance(Slip::at(slip[i]), 0.3, own);

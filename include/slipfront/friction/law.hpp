@@ -5,6 +5,8 @@
 /// the force. A law with state variables also gives their StateEvolution. Averages over a train, implicit solves and
 /// loops over many positions follow from the force, by quadrature and bracketing, unless the law knows closed forms.
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -74,13 +76,49 @@ struct StateVariable {
 /// Values of a law's state variables at one position, in the order of its definition; none for most laws.
 using LocalState = std::span<const double>;
 
-/// Values of a law's state variables at many positions, one position after the other.
-struct LocalStates {
-  const double* values = nullptr;
-  std::size_t each = 0;  ///< values of one position
-  LocalState at(std::size_t i) const { return {values + i * each, each}; }
-  LocalStates from(std::size_t i) const { return {values + i * each, each}; }
+/// The largest number of state variables of a position, with its parameters that vary.
+inline constexpr std::size_t most_variables = 16;
+
+/// The values at one position, next to each other.
+class LocalValues {
+ public:
+  explicit LocalValues(std::size_t size) : size_(size) {}
+  double& operator[](std::size_t v) { return values_[v]; }
+  operator LocalState() const { return {values_.data(), size_}; }
+  operator std::span<double>() { return {values_.data(), size_}; }
+
+ private:
+  std::array<double, most_variables> values_;
+  std::size_t size_;
 };
+
+/// Values of a law's state variables at many positions: one position after the other, or one variable after the other.
+template <class Number>
+struct StatesOf {
+  Number* values = nullptr;
+  std::size_t each = 0;     ///< variables of a position
+  std::size_t next = each;  ///< how far it is from a position to the next
+  std::size_t apart = 1;    ///< how far it is from a variable to the next
+
+  StatesOf from(std::size_t i) const { return {values + i * next, each, next, apart}; }
+  /// The first variables of each position.
+  StatesOf first(std::size_t count) const { return {values, count, next, apart}; }
+  Number& operator()(std::size_t i, std::size_t v) const { return values[i * next + v * apart]; }
+  LocalValues at(std::size_t i) const {
+    LocalValues here(each);
+    for (std::size_t v = 0; v < each; ++v) here[v] = (*this)(i, v);
+    return here;
+  }
+  /// A variable of `size` positions next to each other: in place, or as a copy in `room`.
+  Number* column(std::size_t v, std::size_t size, std::remove_const_t<Number>* room) const {
+    if (next == 1) return values + v * apart;
+    for (std::size_t i = 0; i < size; ++i) room[i] = (*this)(i, v);
+    return room;
+  }
+  operator StatesOf<const double>() const { return {values, each, next, apart}; }
+};
+using LocalStates = StatesOf<const double>;
+using EvolvingStates = StatesOf<double>;
 
 /// The slip of a position during a time step. `mean` is its mean velocity. `typical` is exp(<ln |w|>), where <> is the
 /// mean over slip. If dislocations of a train pass, `typical` is a sinh |phi| e^psi.
@@ -103,8 +141,8 @@ class StateEvolution {
   virtual void start(std::span<double> state) const = 0;
   /// Advances the state over a time in which the position slips.
   virtual void advance(const Slip& slip, double time, std::span<double> state) const = 0;
-  /// Calls `advance` for `size` positions, each with `each` values.
-  virtual void advance_all(std::size_t size, const Slips& slips, double time, std::size_t each, double* state) const;
+  /// Calls `advance` for `size` positions.
+  virtual void advance_all(std::size_t size, const Slips& slips, double time, EvolvingStates states) const;
 };
 
 class Law;

@@ -4,8 +4,9 @@ namespace slipfront::friction {
 namespace {
 
 struct FlashHeating {
+  using Values = std::array<double, 3>;
   double weakened, gain, per_velocity;
-  explicit FlashHeating(const std::vector<double>& v) : weakened(v[1]), gain(v[0] - v[1]), per_velocity(1 / v[2]) {}
+  explicit FlashHeating(const Values& v) : weakened(v[1]), gain(v[0] - v[1]), per_velocity(1 / v[2]) {}
   double operator()(double speed) const { return weakened + gain / (1 + speed * per_velocity); }
 };
 

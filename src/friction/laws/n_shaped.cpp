@@ -4,8 +4,9 @@ namespace slipfront::friction {
 namespace {
 
 struct NShaped {
+  using Values = std::array<double, 2>;
   double C, per_velocity;
-  explicit NShaped(const std::vector<double>& values) : C(values[0]), per_velocity(1 / values[1]) {}
+  explicit NShaped(const Values& values) : C(values[0]), per_velocity(1 / values[1]) {}
   double operator()(double speed) const {
     const double r = speed * per_velocity, q = r < 1e150 ? r : 1e150;
     return C * q / (1 + q * q);

@@ -85,22 +85,18 @@ class PowerRate final : public RelaxationRate {
 };
 
 /// C w^n; NaN where that exceeds the range of exp. w = 0 gives 0.
-SLIPFRONT_INLINE double power_force(double C, double n, double speed) {
-  constexpr double least = 1e-300, range = 690;
-  const double w = speed > least ? speed : 1.0, log = n * log_branch_free(w);
-  const bool within = log < range && log > -range && (speed > least || speed == 0);
-  const double power = C * exp_branch_free(within ? log : 0.0);
-  return !within ? NAN : speed == 0 ? 0.0 : power;
-}
-SLIPFRONT_CLONES void forces(double C, double n, std::size_t size, const double* speed, double* force) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) force[i] = power_force(C, n, speed[i]);
-}
-SLIPFRONT_CLONES void varying_forces(const double* C, const double* n, std::size_t size, const double* speed,
-                                     double* force) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) force[i] = power_force(C[i], n[i], speed[i]);
-}
+struct PowerForce {
+  using Values = std::array<double, 2>;
+  double C, n;
+  SLIPFRONT_INLINE explicit PowerForce(const Values& values) : C(values[0]), n(values[1]) {}
+  SLIPFRONT_INLINE double operator()(double speed) const {
+    constexpr double least = 1e-300, range = 690;
+    const double w = speed > least ? speed : 1.0, log = n * log_branch_free(w);
+    const bool within = log < range && log > -range && (speed > least || speed == 0);
+    const double power = C * exp_branch_free(within ? log : 0.0);
+    return !within ? NAN : speed == 0 ? 0.0 : power;
+  }
+};
 
 SLIPFRONT_CLONES void logarithms(std::size_t size, const double* psi, double* log_psi) {
   constexpr double least = 1e-300;
@@ -113,7 +109,7 @@ void PowerRate::rates(std::size_t size, const double* fastest, const double* psi
   double log_psi[most];
   for (std::size_t begin = 0; begin < size; begin += most) {
     const std::size_t some = std::min(most, size - begin);
-    forces(C_, n_ - 1, some, fastest + begin, rate + begin);
+    forces_at(PowerForce({C_, n_ - 1}), some, fastest + begin, rate + begin);
     logarithms(some, psi + begin, log_psi);
     for (std::size_t i = begin; i < begin + some; ++i) {
       if (std::isnan(rate[i])) rate[i] = C_ * std::pow(fastest[i], n_ - 1);
@@ -132,7 +128,7 @@ class PowerLoops final : public ForceLoops {
  public:
   PowerLoops(const Law& law, double coefficient, double exponent) : ForceLoops(law), C_(coefficient), n_(exponent) {}
   void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
-    forces(C_, n_, size, speed, force);
+    forces_at(PowerForce({C_, n_}), size, speed, force);
     for (std::size_t i = 0; i < size; ++i)
       if (std::isnan(force[i])) force[i] = law_.strength(speed[i], states.at(i));
   }
@@ -210,14 +206,7 @@ class VaryingPower final : public VaryingLaw<Power> {
    public:
     explicit Loops(const VaryingPower& law) : ForceLoops(law), all_(law) {}
     void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
-      double of[2][part_size];  // C and n
-      for (std::size_t p = 0; p < 2; ++p) std::fill_n(of[p], part_size, all_.values()[p]);
-      const std::vector<std::size_t>& parameters = all_.varying().parameters;
-      in_parts(size, [&](std::size_t begin, std::size_t some) {
-        for (std::size_t c = 0; c < parameters.size(); ++c)
-          for (std::size_t i = 0; i < some; ++i) of[parameters[c]][i] = states.at(begin + i)[c];
-        varying_forces(of[0], of[1], some, speed + begin, force + begin);
-      });
+      forces_where_they_vary<PowerForce>(all_.values(), all_.varying(), size, speed, states, force);
       for (std::size_t i = 0; i < size; ++i)
         if (std::isnan(force[i])) force[i] = law_.strength(speed[i], states.at(i));
     }

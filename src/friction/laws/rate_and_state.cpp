@@ -21,44 +21,45 @@ class RateAndStateLoops final : public ForceLoops {
   RateAndStateLoops(const Law& law, const AsinhForce& force, double direct_over_evolution)
       : ForceLoops(law), force_(force), a_over_b_(direct_over_evolution) {}
 
-  void strengths(std::size_t size, const double* speed, LocalStates theta, double* force) const override {
-    if (forces(force_, size, speed, theta.values, force)) return;
-    for (std::size_t i = 0; i < size; ++i)
-      if (!within_exponents(force_, theta.values[i])) force[i] = law_.strength(speed[i], theta.at(i));
+  void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
+    double copies[part_size];
+    in_parts(size, [&](std::size_t begin, std::size_t some) {
+      const double* const theta = states.from(begin).column(0, some, copies);
+      if (forces(force_, some, speed + begin, theta, force + begin)) return;
+      for (std::size_t i = 0; i < some; ++i)
+        if (!within_exponents(force_, theta[i])) force[begin + i] = law_.strength(speed[begin + i], {theta + i, 1});
+    });
   }
 
-  void speeds_after(std::size_t size, const double* free, double weight, LocalStates theta,
+  void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
                     double* speed) const override {
-    double done[most];
-    for (std::size_t begin = 0; begin < size; begin += most) {
-      const std::size_t n = std::min(most, size - begin);
-      const double* const states = theta.values + begin;
-      if (friction::speeds_after(force_, n, free + begin, weight, states, speed + begin, done)) continue;
-      for (std::size_t i = 0; i < n; ++i)
-        if (done[i] == 0) speed[begin + i] = law_.speed_after(free[begin + i], weight, theta.at(begin + i));
-    }
+    double copies[part_size], done[part_size];
+    in_parts(size, [&](std::size_t begin, std::size_t some) {
+      const double* const theta = states.from(begin).column(0, some, copies);
+      if (friction::speeds_after(force_, some, free + begin, weight, theta, speed + begin, done)) return;
+      for (std::size_t i = 0; i < some; ++i)
+        if (done[i] == 0) speed[begin + i] = law_.speed_after(free[begin + i], weight, {theta + i, 1});
+    });
   }
 
   /// If the normal stress is a share s, the speed v = s v' obeys v' + weight a asinh(s G v') = free / s. Because G is
   /// proportional to theta^(b / a), the factor s has the same effect as theta s^(a / b) in place of theta.
-  void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, LocalStates theta,
+  void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, LocalStates states,
                           double* speed) const override {
     constexpr double most_power = 20;
-    if (!(a_over_b_ < most_power)) return ForceLoops::speeds_after_under(size, share, free, weight, theta, speed);
-    double freed[most], aged[most];
-    for (std::size_t begin = 0; begin < size; begin += most) {
-      const std::size_t n = std::min(most, size - begin);
-      for (std::size_t i = 0; i < n; ++i) {
+    if (!(a_over_b_ < most_power)) return ForceLoops::speeds_after_under(size, share, free, weight, states, speed);
+    double freed[part_size], aged[part_size];
+    in_parts(size, [&](std::size_t begin, std::size_t some) {
+      for (std::size_t i = 0; i < some; ++i) {
         freed[i] = free[begin + i] / share[begin + i];
-        aged[i] = theta.values[begin + i] * exp_branch_free(a_over_b_ * log_branch_free(share[begin + i]));
+        aged[i] = states(begin + i, 0) * exp_branch_free(a_over_b_ * log_branch_free(share[begin + i]));
       }
-      speeds_after(n, freed, weight, {aged, 1}, speed + begin);
-      for (std::size_t i = 0; i < n; ++i) speed[begin + i] *= share[begin + i];
-    }
+      speeds_after(some, freed, weight, {aged, 1}, speed + begin);
+      for (std::size_t i = 0; i < some; ++i) speed[begin + i] *= share[begin + i];
+    });
   }
 
  private:
-  static constexpr std::size_t most = 64;
   AsinhForce force_;
   double a_over_b_;
 };
@@ -128,22 +129,27 @@ class RateAndState final : public Law {
 
 /// Parameters and states of the positions of a part.
 struct AtPositions {
-  double of[kind][part_size];  ///< by parameter
-  double theta[part_size];
-  double log_G[part_size], G[part_size];  ///< f = a asinh(w G)
+  ParametersOfPart<age> parameters;  ///< those before the age
+  const double* theta = nullptr;
+  double exponent[part_size], G[part_size];  ///< f = a asinh(w G), G = exp(exponent) / 2 w_0
+  double copies[part_size];                  ///< theta, if it is not next to each other already
+
+  AtPositions(const std::vector<double>& values, const Varying& varying) : parameters(values, varying) {}
+  const double* of(Value parameter) const { return parameters.at()[parameter]; }
 };
 
-constexpr double largest_log_G = 650;  ///< G has this range
+constexpr double largest_exponent = 650;
 
 SLIPFRONT_CLONES void find_G(std::size_t size, AtPositions& at) {
+  const double *const f_0 = at.of(f0), *const a = at.of(direct), *const b = at.of(evolution_effect);
+  const double *const D = at.of(distance), *const w_0 = at.of(velocity), *const theta = at.theta;
+  double *const exponent = at.exponent, *const G = at.G;
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
-    const double v0 = at.of[velocity][i];
-    const double aged = log_branch_free(at_least(at.theta[i] * v0 / at.of[distance][i], AsinhForce::least_theta));
-    const double log_G =
-        (at.of[f0][i] + at.of[evolution_effect][i] * aged) / at.of[direct][i] - log_branch_free(2 * v0);
-    at.log_G[i] = log_G;
-    at.G[i] = exp_branch_free(at_most(at_least(log_G, -largest_log_G), largest_log_G));
+    const double aged = log_branch_free(at_least(theta[i] * w_0[i] / D[i], AsinhForce::least_theta));
+    const double E = (f_0[i] + b[i] * aged) / a[i];
+    exponent[i] = E;
+    G[i] = exp_branch_free(at_most(at_least(E, -largest_exponent), largest_exponent)) / (2 * w_0[i]);
   }
 }
 
@@ -159,23 +165,14 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
  private:
   static constexpr AsinhForce one{.a = 1, .base = 0, .share = 1};
 
-  /// Calls `task` with the first position of each part, its size, and the values there of theta and of parameters from
-  /// `first` to `last`. The numbers of contacts and pores come later.
+  /// Calls `task` with the first position of each part, its size, and the values there.
   template <class Task>
-  void with_values(std::size_t size, LocalStates states, std::size_t first, std::size_t last, const Task& task) const {
-    AtPositions at;
-    const auto varies = [&](std::size_t p) {
-      return std::count(varying().parameters.begin(), varying().parameters.end(), p) > 0;
-    };
-    for (std::size_t p = first; p <= last; ++p)
-      if (!varies(p)) std::fill_n(at.of[p], std::min(size, part_size), values()[p]);
+  void with_values(std::size_t size, LocalStates states, const Task& task) const {
+    AtPositions at(values(), varying());
     in_parts(size, [&](std::size_t begin, std::size_t some) {
-      for (std::size_t i = 0; i < some; ++i) at.theta[i] = states.at(begin + i)[0];
-      for (std::size_t c = 0; c < varying().parameters.size(); ++c) {
-        const std::size_t parameter = varying().parameters[c];
-        if (parameter < first || parameter > last) continue;
-        for (std::size_t i = 0; i < some; ++i) at.of[parameter][i] = states.at(begin + i)[1 + c];
-      }
+      const LocalStates part = states.from(begin);
+      at.parameters.take(part, some);
+      at.theta = part.column(0, some, at.copies);
       task(begin, some, at);
     });
   }
@@ -184,10 +181,10 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
    public:
     explicit Loops(const VaryingRateAndState& law) : ForceLoops(law), all_(law) {}
     void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
-      all_.with_values(size, states, f0, velocity, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+      all_.with_values(size, states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
         find_G(some, at);
         const bool within = forces(one, some, speed + begin, at.G, force + begin);
-        for (std::size_t i = 0; i < some; ++i) force[begin + i] *= at.of[direct][i];
+        multiply(some, at.of(direct), force + begin);
         for (std::size_t i = 0; i < some && !within; ++i)
           if (!within_exponents(one, at.G[i])) force[begin + i] = law_.strength(speed[begin + i], states.at(begin + i));
       });
@@ -195,16 +192,13 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
     /// v = a v' with v' + weight asinh(a G v') = free / a.
     void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
                       double* speed) const override {
-      all_.with_values(size, states, f0, velocity, [&](std::size_t begin, std::size_t some, AtPositions& at) {
-        double freed[part_size], aged[part_size], done[part_size];
+      all_.with_values(size, states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+        double freed[part_size], done[part_size];
         find_G(some, at);
-        const double* const a = at.of[direct];
-        for (std::size_t i = 0; i < some; ++i) {
-          freed[i] = free[begin + i] / a[i];
-          aged[i] = at.G[i] * a[i];
-        }
-        const bool all = friction::speeds_after(one, some, freed, weight, aged, speed + begin, done);
-        for (std::size_t i = 0; i < some; ++i) speed[begin + i] *= a[i];
+        divide(some, free + begin, at.of(direct), freed);
+        multiply(some, at.of(direct), at.G);
+        const bool all = friction::speeds_after(one, some, freed, weight, at.G, speed + begin, done);
+        multiply(some, at.of(direct), speed + begin);
         for (std::size_t i = 0; i < some && !all; ++i)
           if (done[i] == 0) speed[begin + i] = law_.speed_after(free[begin + i], weight, states.at(begin + i));
       });
@@ -219,22 +213,21 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
     explicit Average(const VaryingRateAndState& law) : VaryingLaw::Average(law), all_(law), mean_of_one_(law, one) {}
     void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
       if (closure != Closure::consistent) return QuadratureAverage::mean_strengths(trains, closure, mean, slope);
-      all_.with_values(
-          trains.size, trains.states, f0, velocity, [&](std::size_t begin, std::size_t some, AtPositions& at) {
-            const auto find = [&](const TrainAverage& average, std::size_t i, std::size_t count, const double* theta) {
-              const std::size_t first = begin + i;
-              average.mean_strengths({count, trains.fastest + first, trains.s + first, {theta, 1}}, closure,
-                                     mean + first, slope == nullptr ? nullptr : slope + first);
-            };
-            find_G(some, at);
-            find(mean_of_one_, 0, some, at.G);
-            for (std::size_t i = 0; i < some; ++i) {
-              mean[begin + i] *= at.of[direct][i];
-              if (slope != nullptr) slope[begin + i] *= at.of[direct][i];
-              if (!(std::fabs(at.log_G[i]) < largest_log_G))
-                find(all_.law_at(trains.states.at(begin + i)).average(), i, 1, &at.theta[i]);
-            }
-          });
+      all_.with_values(trains.size, trains.states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+        const auto find = [&](const TrainAverage& average, std::size_t i, std::size_t count, const double* theta) {
+          const std::size_t first = begin + i;
+          average.mean_strengths({count, trains.fastest + first, trains.s + first, {theta, 1}}, closure, mean + first,
+                                 slope == nullptr ? nullptr : slope + first);
+        };
+        find_G(some, at);
+        find(mean_of_one_, 0, some, at.G);
+        for (std::size_t i = 0; i < some; ++i) {
+          mean[begin + i] *= at.of(direct)[i];
+          if (slope != nullptr) slope[begin + i] *= at.of(direct)[i];
+          if (!(std::fabs(at.exponent[i]) < largest_exponent))
+            find(all_.law_at(trains.states.at(begin + i)).average(), i, 1, &at.theta[i]);
+        }
+      });
     }
 
    private:
@@ -248,18 +241,14 @@ class VaryingRateAndState final : public VaryingLaw<RateAndState> {
         : VaryingLaw::Evolution(law),
           all_(law),
           of_one_(law.values()[kind] != 0 ? ContactAge::Kind::slip : ContactAge::Kind::ageing, 0, 1) {}
-    void advance_all(std::size_t size, const Slips& slips, double time, std::size_t each,
-                     double* state) const override {
-      all_.with_values(size, {state, each}, distance, distance,
-                       [&](std::size_t begin, std::size_t some, AtPositions& at) {
-                         double mean[part_size], typical[part_size];
-                         for (std::size_t i = 0; i < some; ++i) {
-                           mean[i] = slips.mean[begin + i] / at.of[distance][i];
-                           typical[i] = slips.typical[begin + i] / at.of[distance][i];
-                         }
-                         of_one_.advance_all(some, {mean, typical}, time, 1, at.theta);
-                         for (std::size_t i = 0; i < some; ++i) state[(begin + i) * each] = at.theta[i];
-                       });
+    void advance_all(std::size_t size, const Slips& slips, double time, EvolvingStates states) const override {
+      all_.with_values(size, states, [&](std::size_t begin, std::size_t some, AtPositions& at) {
+        double mean[part_size], typical[part_size];
+        divide(some, slips.mean + begin, at.of(distance), mean);
+        const bool same = slips.typical == slips.mean;
+        if (!same) divide(some, slips.typical + begin, at.of(distance), typical);
+        of_one_.advance_all(some, {mean, same ? mean : typical}, time, states.from(begin));
+      });
     }
 
    private:

@@ -1,21 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "friction/laws/force_of_speed.hpp"
+#include "math/simd/elementary.hpp"
 #include "math/simd/vector_code.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {
 namespace {
-
-SLIPFRONT_CLONES void forces(double residual, double gain, double distance, std::size_t size, const double* slip,
-                             double* force) {
-  const double per_slip = 1 / distance;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) {
-    const double part = 1 - slip[i] * per_slip;
-    force[i] = residual + gain * (part > 0 ? part : 0);
-  }
-}
 
 SLIPFRONT_CLONES void slow(std::size_t size, const double* free, double weight, double* speed) {
   SLIPFRONT_INDEPENDENT
@@ -32,10 +24,15 @@ SLIPFRONT_CLONES void add_slip(std::size_t size, const double* velocity, double 
 
 /// The strength f_d + (f_s - f_d) max(0, 1 - slip / D_c), which does not depend on the speed.
 struct Strength {
-  double residual, gain, distance;
-  double operator()(double slip) const { return residual + gain * std::fmax(0, 1 - slip / distance); }
-  void of_all(std::size_t size, LocalStates slip, double* force) const {
-    forces(residual, gain, distance, size, slip.values, force);
+  using Values = std::array<double, 3>;
+  double residual, gain, per_slip;
+  explicit Strength(const Values& v) : residual(v[1]), gain(v[0] - v[1]), per_slip(1 / v[2]) {}
+  double operator()(double slip) const { return residual + gain * at_least(1 - slip * per_slip, 0); }
+  void of_all(std::size_t size, LocalStates slips, double* force) const {
+    double copies[part_size];
+    in_parts(size, [&](std::size_t begin, std::size_t some) {
+      forces_at(*this, some, slips.from(begin).column(0, some, copies), force + begin);
+    });
   }
 };
 
@@ -75,15 +72,19 @@ class PathLength final : public StateEvolution {
   void advance(const Slip& slip, double time, std::span<double> path) const override {
     path[0] += std::fabs(slip.mean) * time;
   }
-  void advance_all(std::size_t size, const Slips& slips, double time, std::size_t, double* path) const override {
-    add_slip(size, slips.mean, time, path);
+  void advance_all(std::size_t size, const Slips& slips, double time, EvolvingStates states) const override {
+    change_in_parts(size, states, [&](std::size_t begin, std::size_t some, double* path) {
+      add_slip(some, slips.mean + begin, time, path);
+    });
   }
 };
 
+class VaryingSlipWeakening;
+
 class SlipWeakening final : public Law {
  public:
-  explicit SlipWeakening(const std::vector<double>& values)
-      : strength_{.residual = values[1], .gain = values[0] - values[1], .distance = values[2]} {}
+  using WhereItVaries = VaryingSlipWeakening;
+  explicit SlipWeakening(const std::vector<double>& values) : strength_(force_with<Strength>(values)) {}
   double strength(double, LocalState slip) const override { return strength_(slip[0]); }
   double speed_after(double free, double weight, LocalState slip) const override {
     return std::fmax(free - weight * strength_(slip[0]), 0);
@@ -96,6 +97,37 @@ class SlipWeakening final : public Law {
   Strength strength_;
   StrengthLoops loops_{*this, strength_};
   StrengthAverage average_{*this, strength_};
+  PathLength evolution_;
+};
+
+class VaryingSlipWeakening final : public VaryingLaw<SlipWeakening> {
+ public:
+  using VaryingLaw::VaryingLaw;
+  const ForceLoops& loops() const override { return loops_; }
+  const StateEvolution& evolution() const override { return evolution_; }
+
+ private:
+  class Loops final : public ForceLoops {
+   public:
+    explicit Loops(const VaryingSlipWeakening& law) : ForceLoops(law), all_(law) {}
+    void strengths(std::size_t size, const double*, LocalStates states, double* force) const override {
+      double copies[part_size];
+      in_parts(size, [&](std::size_t begin, std::size_t some) {
+        const LocalStates part = states.from(begin);
+        forces_where_they_vary<Strength>(all_.values(), all_.varying(), some, part.column(0, some, copies), part,
+                                         force + begin);
+      });
+    }
+    void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
+                      double* speed) const override {
+      strengths(size, nullptr, states, speed);
+      slow(size, free, weight, speed);
+    }
+
+   private:
+    const VaryingSlipWeakening& all_;
+  };
+  Loops loops_{*this};
   PathLength evolution_;
 };
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "friction/laws/force_of_speed.hpp"
 #include "math/simd/elementary.hpp"
 #include "math/simd/vector_code.hpp"
 
 namespace slipfront::friction {
 namespace {
 
-constexpr std::size_t together = 64;
 constexpr double short_step = 1.0 / 16;  ///< limit of the slip over D_c in age_little
 
 /// Advances theta, to 1e-17, at positions that slip less than short_step. The others stay unchanged. Returns whether
@@ -39,10 +39,7 @@ SLIPFRONT_CLONES void age_much(std::size_t size, const double* velocity, double 
 
 void advance_by_ageing(double D, std::size_t size, const double* velocity, double time, double* theta) {
   const double per_D = time / D;
-  for (std::size_t j = 0; j < size; j += together) {
-    const std::size_t some = std::min(together, size - j);
-    if (!age_little(some, velocity + j, per_D, time, theta + j)) age_much(some, velocity + j, per_D, time, theta + j);
-  }
+  if (!age_little(size, velocity, per_D, time, theta)) age_much(size, velocity, per_D, time, theta);
 }
 
 SLIPFRONT_CLONES void advance_by_slip(double D, std::size_t size, const double* mean, const double* typical,
@@ -69,11 +66,13 @@ void ContactAge::advance(const Slip& slip, double time, std::span<double> theta)
   theta[0] = theta[0] * std::exp(-passed) + time * gained;
 }
 
-void ContactAge::advance_all(std::size_t size, const Slips& slips, double time, std::size_t, double* theta) const {
-  if (kind_ == Kind::slip)
-    advance_by_slip(D_, size, slips.mean, slips.typical, time, theta);
-  else
-    advance_by_ageing(D_, size, slips.mean, time, theta);
+void ContactAge::advance_all(std::size_t size, const Slips& slips, double time, EvolvingStates states) const {
+  change_in_parts(size, states, [&](std::size_t begin, std::size_t some, double* theta) {
+    if (kind_ == Kind::slip)
+      advance_by_slip(D_, some, slips.mean + begin, slips.typical + begin, time, theta);
+    else
+      advance_by_ageing(D_, some, slips.mean + begin, time, theta);
+  });
 }
 
 namespace {
@@ -91,17 +90,53 @@ struct PressureRule {
   }
 };
 
+/// The excess pressure of a position, and what multiplies its a^2.
+struct ContactAfter {
+  double excess, strength;
+};
+SLIPFRONT_INLINE ContactAfter contact_after(double decay, double gain, double ageing, double per_age, double ambient,
+                                            double theta_before, double theta, double excess) {
+  const double before = theta_before > tiny ? theta_before : tiny, now = theta > tiny ? theta : tiny;
+  const double q = decay * excess + gain * log_branch_free(now / before), share = 1 - (ambient + q);
+  return {q, share * share * (1 + ageing * log_branch_free(1 + now * per_age))};
+}
+
+double per_age(const Contacts& contacts) { return contacts.ageing > 0 ? 1 / contacts.age : 0; }
+
 SLIPFRONT_CLONES void advance_positions(const Contacts& contacts, const PressureRule& rule, std::size_t size,
                                         const double* theta_before, const double* theta, double* excess,
                                         double* strength) {
   const PressureRule r = rule;
-  const double beta = contacts.ageing, per_age = beta > 0 ? 1 / contacts.age : 0, ambient = contacts.ambient;
+  const double ageing = contacts.ageing, age_share = per_age(contacts), ambient = contacts.ambient;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) {
-    const double before = theta_before[j] > tiny ? theta_before[j] : tiny, now = theta[j] > tiny ? theta[j] : tiny;
-    const double q = r.decay * excess[j] + r.gain * log_branch_free(now / before), share = 1 - (ambient + q);
-    excess[j] = q;
-    strength[j] = share * share * (1 + beta * log_branch_free(1 + now * per_age));
+    const ContactAfter after =
+        contact_after(r.decay, r.gain, ageing, age_share, ambient, theta_before[j], theta[j], excess[j]);
+    excess[j] = after.excess;
+    strength[j] = after.strength;
+  }
+}
+
+SLIPFRONT_CLONES void find_rules(std::size_t size, double time, const double* per_drainage, const double* dilatancy,
+                                 double* decay, double* gain) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) {
+    const double x = at_most(time * per_drainage[j], 650.0), lost = -expm1_branch_free(-x);
+    decay[j] = 1 - lost;
+    gain[j] = dilatancy[j] * (x > 0 ? lost / x : 1.0);
+  }
+}
+
+SLIPFRONT_CLONES void advance_where_they_vary(std::size_t size, const double* decay, const double* gain,
+                                              const double* ageing, const double* per_age, const double* ambient,
+                                              const double* theta_before, const double* theta, double* excess,
+                                              double* strength) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) {
+    const ContactAfter after =
+        contact_after(decay[j], gain[j], ageing[j], per_age[j], ambient[j], theta_before[j], theta[j], excess[j]);
+    excess[j] = after.excess;
+    strength[j] = after.strength;
   }
 }
 
@@ -119,6 +154,25 @@ double Contacts::excess_after(double time, double excess, double theta_before, d
 void Contacts::advance(std::size_t size, double time, const double* theta_before, const double* theta, double* excess,
                        double* strength) const {
   advance_positions(*this, PressureRule(*this, time), size, theta_before, theta, excess, strength);
+}
+
+void VaryingContacts::add(const Contacts& contacts) {
+  ageing_.push_back(contacts.ageing);
+  per_age_.push_back(per_age(contacts));
+  dilatancy_.push_back(contacts.dilatancy);
+  per_drainage_.push_back(contacts.drainage > 0 ? 1 / contacts.drainage : 0);
+  ambient_.push_back(contacts.ambient);
+}
+
+void VaryingContacts::advance(std::size_t first, std::size_t size, double time, const double* theta_before,
+                              const double* theta, double* excess, double* strength) const {
+  double decay[part_size], gain[part_size];
+  in_parts(size, [&](std::size_t begin, std::size_t some) {
+    const std::size_t at = first + begin;
+    find_rules(some, time, &per_drainage_[at], &dilatancy_[at], decay, gain);
+    advance_where_they_vary(some, decay, gain, &ageing_[at], &per_age_[at], &ambient_[at], theta_before + begin,
+                            theta + begin, excess + begin, strength + begin);
+  });
 }
 
 }  // namespace slipfront::friction

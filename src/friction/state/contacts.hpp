@@ -4,6 +4,7 @@
 /// dilatancy").
 
 #include <cstddef>
+#include <vector>
 
 #include "slipfront/friction/law.hpp"
 
@@ -19,7 +20,7 @@ class ContactAge final : public StateEvolution {
   ContactAge(Kind kind, double start, double distance) : kind_(kind), start_(start), D_(distance) {}
   void start(std::span<double> theta) const override { theta[0] = start_; }
   void advance(const Slip& slip, double time, std::span<double> theta) const override;
-  void advance_all(std::size_t size, const Slips& slips, double time, std::size_t each, double* theta) const override;
+  void advance_all(std::size_t size, const Slips& slips, double time, EvolvingStates theta) const override;
 
  private:
   Kind kind_;
@@ -47,6 +48,20 @@ struct Contacts {
   /// Both for many positions: `excess` becomes that after the time, `strength` what belongs to it and to theta.
   void advance(std::size_t size, double time, const double* theta_before, const double* theta, double* excess,
                double* strength) const;
+};
+
+/// Contacts and pores whose numbers vary, at many positions.
+class VaryingContacts {
+ public:
+  bool empty() const { return ageing_.empty(); }
+  void add(const Contacts& contacts);
+  /// Contacts::advance for `size` positions from position `first` on.
+  void advance(std::size_t first, std::size_t size, double time, const double* theta_before, const double* theta,
+               double* excess, double* strength) const;
+  double ambient(std::size_t i) const { return ambient_[i]; }
+
+ private:
+  std::vector<double> ageing_, per_age_, dilatancy_, per_drainage_, ambient_;
 };
 
 }  // namespace slipfront::friction

@@ -266,11 +266,11 @@ void AsinhAverage::mean_strengths(const Trains& trains, Closure closure, double*
   constexpr std::size_t most = PhaseNodes::most;
   const double a = force_.a;
   Amplitudes at;
-  double slopes[most];
+  double slopes[most], copies[most];
   for (std::size_t begin = 0; begin < trains.size; begin += most) {
     const std::size_t n = std::min(most, trains.size - begin);
     const double* const s = trains.s + begin;
-    find_amplitudes(force_, n, trains.fastest + begin, s, trains.states.values + begin, at);
+    find_amplitudes(force_, n, trains.fastest + begin, s, trains.states.from(begin).column(0, n, copies), at);
     if (at.count_tabulated == n) {
       means_by_table(a, n, at.log_A, at.A, s, mean + begin, slopes);
     } else {

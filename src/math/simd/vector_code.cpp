@@ -2,6 +2,16 @@
 
 namespace slipfront {
 
+SLIPFRONT_CLONES void multiply(std::size_t size, const double* by, double* values) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) values[i] *= by[i];
+}
+
+SLIPFRONT_CLONES void divide(std::size_t size, const double* values, const double* by, double* quotients) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) quotients[i] = values[i] / by[i];
+}
+
 SLIPFRONT_CLONES void combine3(std::size_t size, std::array<double, 3> c, std::array<const double*, 3> x, double* sum) {
   const auto [x0, x1, x2] = x;
   SLIPFRONT_INDEPENDENT

@@ -17,8 +17,11 @@
 #define SLIPFRONT_CLONES
 #endif
 
-/// Sums of arrays as vector code, for time integrators.
+/// Sums, products and quotients of arrays as vector code.
 namespace slipfront {
+
+void multiply(std::size_t size, const double* by, double* values);
+void divide(std::size_t size, const double* values, const double* by, double* quotients);
 
 /// sum = c_0 x_0 + c_1 x_1 + ...
 void combine3(std::size_t size, std::array<double, 3> c, std::array<const double*, 3> x, double* sum);

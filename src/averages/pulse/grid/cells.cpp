@@ -81,7 +81,8 @@ void StateGrid::find_passing(const std::vector<double>& x, const Passing& there,
 }
 
 void StateGrid::advance(const Passing& passing, double time, std::vector<double>& values) const {
-  friction_.evolution().advance_all(count_, {passing.mean.data(), passing.typical.data()}, time, each_, values.data());
+  friction_.evolution().advance_all(count_, {passing.mean.data(), passing.typical.data()}, time,
+                                    {values.data(), each_});
 }
 
 void StateGrid::look_up(const std::vector<double>& values, std::size_t size, const double* x, double* state) const {

@@ -283,24 +283,24 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, const Ranks& ranks,
         strength * (all * steady_F_[j] + scheme_.share_neighbour * (steady_F_[j - 1] + steady_F_[j + 1]));
 }
 
-void Forces::age(long first, std::size_t size, const double* now, const double* next, double* states) {
+void Forces::age(long first, std::size_t size, const double* now, const double* next, friction::EvolvingStates states) {
   double velocity[together];
   for (std::size_t j = 0; j < size; j += together) {
     const std::size_t some = std::min(together, size - j);
     velocities(turn / dt_, now + j, next + j, velocity, some);
-    double* const theirs = states + variables_ * j;
+    const friction::EvolvingStates theirs = states.from(j);
     if (contacts_.acts())
       age_contacts(first + static_cast<long>(j), some, velocity, theirs);
     else
-      problem_.friction.evolution().advance_all(some, friction::Slips::at(velocity), dt_, variables_, theirs);
+      problem_.friction.evolution().advance_all(some, friction::Slips::at(velocity), dt_, theirs);
   }
 }
 
-void Forces::age_contacts(long first, std::size_t size, const double* velocity, double* states) {
+void Forces::age_contacts(long first, std::size_t size, const double* velocity, friction::EvolvingStates states) {
   double before[together], theta[together];
-  for (std::size_t i = 0; i < size; ++i) before[i] = states[variables_ * i];
-  problem_.friction.evolution().advance_all(size, friction::Slips::at(velocity), dt_, variables_, states);
-  for (std::size_t i = 0; i < size; ++i) theta[i] = states[variables_ * i];
+  for (std::size_t i = 0; i < size; ++i) before[i] = states(i, 0);
+  problem_.friction.evolution().advance_all(size, friction::Slips::at(velocity), dt_, states);
+  for (std::size_t i = 0; i < size; ++i) theta[i] = states(i, 0);
   contacts_.advance(first, dt_, {before, size}, {theta, size});
 }
 
@@ -404,7 +404,7 @@ void Forces::add_friction(const LevelSites& s, std::size_t begin, std::size_t en
   for (std::size_t j = begin; j < end; j += together) {
     const std::size_t some = std::min(together, end - j);
     const double* from = (centred ? s.before : s.now) + j;
-    double* force = s.applied == nullptr ? nullptr : s.applied + j;
+    double* force = s.applied == nullptr || centred ? nullptr : s.applied + j;
     if (!free_speeds(turn / time, from, s.next + j, free, some)) {
       if (force != nullptr) std::fill_n(force, some, 0.0);
       std::copy_n(from, some, s.next + j);
@@ -462,7 +462,7 @@ ContactField::ContactField(const Problem& p, long first, const std::vector<doubl
     p.friction.start(p.grid.x(folded(p, first_ + static_cast<long>(i))), 0, state);
     theta[i] = state[0];
     const friction::Contacts contacts = p.friction.contacts_at(state);
-    if (p.friction.contacts_vary()) at_.push_back(contacts);
+    if (p.friction.contacts_vary()) varying_.add(contacts);
     base_.push_back(a2[i] / contacts.strength(theta[i], 0));
   }
   advance(first_, 0, theta, theta);
@@ -472,13 +472,14 @@ ContactField::ContactField(const Problem& p, long first, const std::vector<doubl
 void ContactField::advance(long first, double time, std::span<const double> theta_before,
                            std::span<const double> theta) {
   const std::size_t size = theta.size(), from = at(first);
-  double* const a2 = next_.data() + from;
-  if (at_.empty()) contacts_.advance(size, time, theta_before.data(), theta.data(), excess_.data() + from, a2);
+  double *const a2 = next_.data() + from, *const excess = excess_.data() + from;
+  if (varying_.empty())
+    contacts_.advance(size, time, theta_before.data(), theta.data(), excess, a2);
+  else
+    varying_.advance(from, size, time, theta_before.data(), theta.data(), excess, a2);
   for (std::size_t i = 0; i < size; ++i) {
-    const friction::Contacts& contacts = at_.empty() ? contacts_ : at_[from + i];
-    if (!at_.empty()) contacts.advance(1, time, &theta_before[i], &theta[i], &excess_[from + i], &a2[i]);
     a2[i] *= base_[from + i];
-    share_[from + i] = contacts.share(excess_[from + i]);
+    share_[from + i] = 1 - ((varying_.empty() ? contacts_.ambient : varying_.ambient(from + i)) + excess[i]);
   }
   // A fixed end keeps its a^2. The scheme fixes z = u + eps a^2 sin u there, so u would move if a^2 changed.
   const Boundary& ends = problem_->boundary;

@@ -76,8 +76,8 @@ class ContactField {
   void look_ahead();
 
   const Problem* problem_;
-  friction::Contacts contacts_;         ///< with the largest of numbers that vary
-  std::vector<friction::Contacts> at_;  ///< those of each site, if numbers of contacts or pores vary
+  friction::Contacts contacts_;        ///< with the largest of numbers that vary
+  friction::VaryingContacts varying_;  ///< those of each site, if numbers of contacts or pores vary
   long first_;
   double limit_ = 0;            ///< largest a^2 for which the time step was chosen
   std::vector<double> base_;    ///< a^2 without ageing and pore pressure
@@ -155,7 +155,7 @@ struct LevelSites {
   long ahead = 0;                        ///< levels after the present one of the forces
   const double* coefficients = nullptr;  ///< contact_coefficients, if a varies
   friction::LocalStates states = {};
-  double* applied = nullptr;  ///< gets the friction force on each site, if it is neither linear nor constant
+  double* applied = nullptr;  ///< gets the friction force on each site, if it is steep at rest
   StepOfU step = {};
 };
 
@@ -219,10 +219,11 @@ class Forces {
   double* state_of(long j) { return state_.data() + variables_ * at(j); }
   const double* state_of(long j) const { return state_.data() + variables_ * at(j); }
   std::size_t variables() const { return variables_; }
-  /// Whether any of them change.
+  /// Whether the first `evolving` of them change.
   bool ages() const { return problem_.friction.state_evolves(); }
+  std::size_t evolving() const { return problem_.friction.definition().state.size(); }
   /// Advances the state variables of `size` sites from site `first` on by the step from `now` to `next`.
-  void age(long first, std::size_t size, const double* now, const double* next, double* states);
+  void age(long first, std::size_t size, const double* now, const double* next, friction::EvolvingStates states);
   /// The state variables of sites [begin, end), site by site. Most laws have none.
   std::vector<double> states(std::size_t begin, std::size_t end) const;
   void set_states(std::size_t begin, const std::vector<double>& states);
@@ -245,7 +246,7 @@ class Forces {
   std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
   void add_load(const LevelSites& sites, std::size_t begin, std::size_t end) const;
   void add_friction(const LevelSites& sites, std::size_t begin, std::size_t end) const;
-  void age_contacts(long first, std::size_t size, const double* velocity, double* states);
+  void age_contacts(long first, std::size_t size, const double* velocity, friction::EvolvingStates states);
 
   Problem problem_;
   Scheme scheme_;

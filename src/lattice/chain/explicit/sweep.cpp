@@ -92,6 +92,12 @@ constexpr std::size_t own = pad + halo;  // index of the first site of a tile
 
 void copy(const double* from, double* to, std::size_t count) { std::memcpy(to, from, count * sizeof(double)); }
 
+/// Copies the first `count` variables of some sites.
+void copy_states(std::size_t count, friction::LocalStates from, friction::EvolvingStates to, std::size_t sites) {
+  for (std::size_t v = 0; v < count; ++v)
+    for (std::size_t i = 0; i < sites; ++i) to(i, v) = from(i, v);
+}
+
 std::size_t whole_vectors(std::size_t size) { return (size + lanes - 1) / lanes * lanes; }
 
 std::size_t room_for(const std::vector<std::size_t>& cuts) {
@@ -176,18 +182,18 @@ void Sweep::load(const Tile& t) {
 void Sweep::load_states(const Tile& t) {
   const std::size_t each = forces_.variables(), here = std::min(t.width + halo, slab_.size() - t.from);
   const double* const states = forces_.state_of(static_cast<long>(slab_.begin() + t.from));
-  copy(left_states_.data(), states_.data() + each * pad, each * halo);
-  copy(states, states_.data() + each * own, each * here);
-  copy(right_states_.data(), states_.data() + each * (own + here), each * (t.width + halo - here));
+  copy_states(each, {left_states_.data(), each}, columns(pad), halo);
+  copy_states(each, {states, each}, columns(own), here);
+  copy_states(each, {right_states_.data(), each}, columns(own + here), t.width + halo - here);
   if (t.width >= halo) copy(states + each * (t.width - halo), left_states_.data(), each * halo);
 }
 
 void Sweep::store(const Tile& t) {
   copy(now_ + own, slab_.now() + t.from, t.width);
   copy(before_ + own, slab_.old() + t.from, t.width);
-  const std::size_t each = forces_.variables();
-  if (each > 0)
-    copy(states_.data() + each * own, forces_.state_of(static_cast<long>(slab_.begin() + t.from)), each * t.width);
+  if (forces_.ages())
+    copy_states(forces_.evolving(), columns(own),
+                {forces_.state_of(static_cast<long>(slab_.begin() + t.from)), forces_.variables()}, t.width);
 }
 
 /// Asks the processor to load some sites of the next tile into its cache while it computes this one.
@@ -214,7 +220,7 @@ LevelSites Sweep::sites_at(const Tile& t, std::size_t rest) {
                .next = forces_.implicit_speed() ? spare_ : before_,
                .y = y_.data()};
   if (forces_.has_contact()) s.coefficients = coefficients_.data();
-  if (forces_.variables() > 0) s.states = {states_.data(), forces_.variables()};
+  s.states = columns(0);
   if (forces_.implicit_speed()) s.applied = applied_.data();
   return s;
 }
@@ -271,20 +277,19 @@ StepOfU Sweep::first_step(const Tile& t, const LevelSites& s, StepOfU measured) 
 void Sweep::finish_step(const Tile& t, const LevelSites& s) {
   if (meter_.of_each_step() != Measured::nothing) {
     const std::size_t first = slab_.begin() + t.from;
-    const friction::LocalStates states = s.states.values == nullptr ? s.states : s.states.from(own);
     meter_.add(forces_, first, first + t.width,
                {.D = D_ + own,
                 .D_before = D_before_ + own,
                 .u = u_.data() + own,
                 .ahead = s.ahead,
                 .applied = applied_.data() + own,
-                .states = states,
+                .states = s.states.from(own),
                 .scratch = y_.data() + own,
                 .further = applied_.data() + own});
   }
   if (forces_.ages() && !forces_.contacts().acts())
     forces_.age(t.offset + static_cast<long>(s.left), s.right - s.left, s.before + s.left, s.now + s.left,
-                states_.data() + forces_.variables() * s.left);
+                columns(s.left));
 }
 
 /// Finishes the step to the last level. Contacts that change must be advanced first, because the displacement at the
@@ -294,8 +299,7 @@ void Sweep::last_step(const Tile& t, std::size_t count) {
   LevelSites s = sites_at(t, 0);
   s.ahead = static_cast<long>(count);
   if (forces_.contacts().acts()) {
-    forces_.age(t.offset + static_cast<long>(own), t.width, before_ + own, now_ + own,
-                states_.data() + forces_.variables() * own);
+    forces_.age(t.offset + static_cast<long>(own), t.width, before_ + own, now_ + own, columns(own));
     forces_.next_coefficients(t.offset, own, whole_vectors(last), coefficients_.data());
   }
   if (meter_.of_each_step() != Measured::nothing) {

@@ -92,6 +92,11 @@ class Sweep {
   void load_states(const Tile& tile);
   void store(const Tile& tile);
   void advance(const Tile& tile, std::size_t count);
+  /// The states of a tile from index i on: one variable after the other, as vector code reads them.
+  friction::EvolvingStates columns(std::size_t i) {
+    if (forces_.variables() == 0) return {};
+    return {states_.data() + i, forces_.variables(), 1, room_};
+  }
   LevelSites sites_at(const Tile& tile, std::size_t rest);
   StepOfU first_step(const Tile& tile, const LevelSites& sites, StepOfU measured);
   StepOfU step(const Tile& tile);

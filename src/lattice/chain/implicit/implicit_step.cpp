@@ -58,13 +58,13 @@ void ImplicitStep::find_friction(std::size_t first, std::size_t size, const doub
     for (std::size_t i = 0; i < size; ++i) force[i] = friction_at(first + i, w[i], dt);
     return;
   }
-  double speed[together], state[together * SiteForces::most_variables];
+  double speed[together], state[together * friction::most_variables];
   const std::size_t variables = forces_.variables();
   if (variables > 0) {
     double mean[together] = {};
     for (std::size_t i = 0; i < size; ++i) mean[i] = from_->v[first + i] + gain(first + i, w[i]) / 2;
     std::copy_n(from_->state.data() + variables * first, variables * size, state);
-    friction_law_.evolution().advance_all(size, friction::Slips::at(mean), dt / 2, variables, state);
+    friction_law_.evolution().advance_all(size, friction::Slips::at(mean), dt / 2, {state, variables});
   }
   for (std::size_t i = 0; i < size; ++i) speed[i] = std::fabs(w[i]);
   friction_law_.loops().strengths(size, speed, {state, variables}, force);
@@ -231,10 +231,10 @@ void ImplicitStep::find_state_errors(std::size_t first, std::size_t size, double
                                      double* error) const {
   const std::size_t variables = forces_.variables();
   const double* const start = from_->state.data() + variables * first;
-  double p[together] = {}, one[together * SiteForces::most_variables], other[together * SiteForces::most_variables];
+  double p[together] = {}, one[together * friction::most_variables], other[together * friction::most_variables];
   const auto evolve = [&](double* state) {
     std::copy_n(start, variables * size, state);
-    friction_law_.evolution().advance_all(size, friction::Slips::at(p), dt, variables, state);
+    friction_law_.evolution().advance_all(size, friction::Slips::at(p), dt, {state, variables});
   };
   const auto difference = [variables](const double* a, const double* b) {
     double most = 0;

@@ -113,8 +113,7 @@ class SiteForces {
   double friction(const ChainState& m, std::size_t j, double velocity) const;
   double loading_energy(const ChainState& m) const;  ///< (all) in the springs that pull
 
-  static constexpr std::size_t most_variables = 16;
-  using State = std::array<double, most_variables>;
+  using State = std::array<double, friction::most_variables>;
   /// The state variables of a site after a time at the velocity p. `values` has room for them.
   std::span<const double> evolved(const ChainState& m, std::size_t j, double p, double time, State& values) const;
 

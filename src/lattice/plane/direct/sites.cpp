@@ -106,8 +106,8 @@ void SiteFriction::age(std::size_t j, const double* now, const double* after) {
   if (!friction_.state_evolves()) return;
   std::vector<double> speed(sites_.nx);
   for (std::size_t i = 0; i < sites_.nx; ++i) speed[i] = std::fabs(after[i] - now[i]) / dt_;
-  friction_.evolution().advance_all(sites_.nx, friction::Slips::at(speed.data()), dt_, each_,
-                                    states_.data() + j * sites_.nx * each_);
+  friction_.evolution().advance_all(sites_.nx, friction::Slips::at(speed.data()), dt_,
+                                    {states_.data() + j * sites_.nx * each_, each_});
 }
 
 void SiteFriction::resist(std::size_t j, bool began, double* acceleration) const {
