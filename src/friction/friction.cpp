@@ -3,8 +3,10 @@
 #include "slipfront/friction/friction.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "friction/laws/force_of_speed.hpp"
@@ -357,6 +359,73 @@ void ForceLoops::speeds_after_under(std::size_t size, const double* share, const
     }
     for (std::size_t i = 0; i < some; ++i)
       speed[begin + i] = s.open[i] == 0 ? s.v[i] : law_.speed_after(free[begin + i], s.weight[i], theirs.at(i));
+  });
+}
+
+namespace {
+
+SLIPFRONT_CLONES bool free_speeds(const Steps& steps, std::size_t size, double* free) {
+  const Steps s = steps;
+  std::uint64_t bits = 0;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    free[i] = free_speed(s.per_step, s.from[i], s.next[i]);
+    bits |= std::bit_cast<std::uint64_t>(free[i]);
+  }
+  return bits != 0;
+}
+
+SLIPFRONT_CLONES void find_applied(const Steps& steps, double per_weight, std::size_t size, const double* free,
+                                   const double* speed, double* applied) {
+  const Steps s = steps;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i)
+    applied[i] = std::copysign((free[i] - speed[i]) * per_weight, s.next[i] - s.from[i]);
+}
+
+SLIPFRONT_CLONES void take_speeds(const Steps& steps, std::size_t size, const double* speed) {
+  const Steps s = steps;
+  const double step_per_speed = 1 / s.per_step;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i)
+    s.next[i] = end_of_step(step_per_speed, s.from[i], s.next[i] - s.from[i], speed[i]);
+}
+
+SLIPFRONT_CLONES void speeds_of(std::size_t size, double per_step, const double* D, double* speed) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) speed[i] = std::fabs(D[i]) * per_step;
+}
+
+}  // namespace
+
+/// Parts in which nothing moves are cheap.
+void ForceLoops::slow_steps(std::size_t size, const Steps& all, const double* share, double weight, LocalStates states,
+                            double* applied) const {
+  constexpr std::size_t most = 4 * part_size;
+  double free[most], speed[most];
+  in_parts<most>(size, [&](std::size_t begin, std::size_t some) {
+    const Steps steps{all.per_step, all.from + begin, all.next + begin};
+    if (!free_speeds(steps, some, free)) {
+      if (applied != nullptr) std::fill_n(applied + begin, some, 0.0);
+      std::copy_n(steps.from, some, steps.next);
+      return;
+    }
+    if (share == nullptr)
+      speeds_after(some, free, weight, states.from(begin), speed);
+    else
+      speeds_after_under(some, share + begin, free, weight, states.from(begin), speed);
+    if (applied != nullptr) find_applied(steps, 1 / weight, some, free, speed, applied + begin);
+    take_speeds(steps, some, speed);
+  });
+}
+
+void ForceLoops::powers(std::size_t size, double per_step, const double* D, LocalStates states, double* power) const {
+  constexpr std::size_t most = 4 * part_size;
+  double speed[most];
+  in_parts<most>(size, [&](std::size_t begin, std::size_t some) {
+    speeds_of(some, per_step, D + begin, speed);
+    strengths(some, speed, states.from(begin), power + begin);
+    multiply(some, speed, power + begin);
   });
 }
 

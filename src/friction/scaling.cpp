@@ -135,6 +135,20 @@ class ScaledLoops final : public ForceLoops {
       one_.loops().speeds_after_under(some, share, free + begin, weight, of_law(states).from(begin), speed + begin);
     });
   }
+  void slow_steps(std::size_t size, const Steps& steps, const double* share, double weight, LocalStates states,
+                  double* applied) const override {
+    if (share != nullptr) return ForceLoops::slow_steps(size, steps, share, weight, states, applied);
+    with_shares(size, states, [&](std::size_t begin, std::size_t some, const double* shares) {
+      one_.loops().slow_steps(some, {steps.per_step, steps.from + begin, steps.next + begin}, shares, weight,
+                              of_law(states).from(begin), applied == nullptr ? nullptr : applied + begin);
+    });
+  }
+  void powers(std::size_t size, double per_step, const double* D, LocalStates states, double* power) const override {
+    with_shares(size, states, [&](std::size_t begin, std::size_t some, const double* shares) {
+      one_.loops().powers(some, per_step, D + begin, of_law(states).from(begin), power + begin);
+      multiply(some, shares, power + begin);
+    });
+  }
 
  private:
   const Law& one_;

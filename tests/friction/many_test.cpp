@@ -29,6 +29,7 @@ std::vector<Friction> some_of_each(Closure closure = Closure::consistent) {
   add("coulomb", {0.03});
   add("power", {0.2, 1.7});
   add("power", {0.1, 0.5});
+  add("power", {0.1, 2});
   add("n-shaped", {0.1, 0.05});
   add("flash-heating", {0.05, 0.01, 0.1});
   if (closure == Closure::paper) return all;
@@ -206,6 +207,52 @@ TEST(FrictionOfMany, FindsForcesAndSolvesAsForOnePosition) {
         EXPECT_EQ(alone, speed[i]) << friction.name() << " " << weight << " " << free[i];
       }
     }
+}
+
+/// A step that is a rounding error of its start, or of a thousandth, is none.
+TEST(FrictionOfMany, IgnoresStepsThatAreRoundingErrors) {
+  const double from[] = {10, 10, -10, 0, 0}, end[] = {10 + 1e-14, 10 + 1e-13, -10 - 1e-13, 1e-18, 1e-17};
+  double next[5];
+  std::copy_n(end, 5, next);
+  power(0.1, 1.7).loops().slow_steps(5, {4, from, next}, nullptr, 1e-6, {}, nullptr);
+  for (const std::size_t j : {0u, 3u}) EXPECT_EQ(next[j], from[j]) << j;
+  for (const std::size_t j : {1u, 2u, 4u}) EXPECT_NEAR((next[j] - from[j]) / (end[j] - from[j]), 1, 0.02) << j;
+}
+
+/// Steps in one loop are those of the separate loops, and so are powers.
+TEST(FrictionOfMany, SlowsStepsAsSpeeds) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (const Friction& friction : some_of_each()) {
+    constexpr std::size_t count = 203;
+    std::vector<double> from(count), next(count), theta(count), share(count), applied(count), power(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      from[i] = 3 * u(random);
+      next[i] = from[i] + (i % 7 == 0 ? 0 : u(random) * std::pow(10, -8 + static_cast<double>(i % 9)));
+      theta[i] = std::exp(4 * u(random));
+      share[i] = 0.6 + 0.3 * u(random);
+    }
+    const LocalStates states{theta.data(), friction.state_size()};
+    constexpr double per_step = 0.7, weight = 0.4;
+    for (const double* const under : {static_cast<const double*>(nullptr), static_cast<const double*>(share.data())}) {
+      std::vector<double> moved = next, alone = next;
+      friction.loops().slow_steps(count, {per_step, from.data(), moved.data()}, under, weight, states, applied.data());
+      friction.loops().slow_steps(count, {per_step, from.data(), alone.data()}, under, weight, states, nullptr);
+      for (std::size_t i = 0; i < count; ++i) {
+        const double part = under == nullptr ? 1 : share[i], free = per_step * std::fabs(next[i] - from[i]);
+        const double v = friction.law().speed_after(free, weight * part, states.at(i));
+        EXPECT_NEAR(per_step * std::fabs(moved[i] - from[i]), v, 1e-11 * v + 1e-14) << friction.name() << " " << i;
+        EXPECT_NEAR(std::fabs(applied[i]) * weight, free - v, 1e-11 * free + 1e-14) << friction.name() << " " << i;
+        EXPECT_NEAR(alone[i], moved[i], 1e-14) << friction.name() << " " << i;
+        EXPECT_GE((moved[i] - from[i]) * (next[i] - from[i]), 0) << friction.name() << " " << i;
+      }
+    }
+    friction.loops().powers(count, per_step, from.data(), states, power.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const double w = per_step * std::fabs(from[i]), wanted = w * friction.law().strength(w, states.at(i));
+      EXPECT_NEAR(power[i], wanted, 1e-12 * wanted) << friction.name() << " " << i;
+    }
+  }
 }
 
 TEST(FrictionOfMany, AdvancesStatesAsForOnePosition) {

@@ -145,6 +145,14 @@ class StateEvolution {
   virtual void advance_all(std::size_t size, const Slips& slips, double time, EvolvingStates states) const;
 };
 
+/// Steps of equal length in time from `from` to `next`, in a unit of displacement of which one a step is the speed
+/// `per_step`.
+struct Steps {
+  double per_step;
+  const double* from;
+  double* next;
+};
+
 class Law;
 
 /// The force at many positions at once. By default, each function calls that of the law for one position after the
@@ -162,6 +170,13 @@ class ForceLoops {
   /// parameters of the law assume: v + weight share f(v) = free.
   virtual void speeds_after_under(std::size_t size, const double* share, const double* free, double weight,
                                   LocalStates states, double* speed) const;
+  /// Shortens steps to those at the speed that friction leaves, under a fraction `share` of the normal stress unless it
+  /// is null. A step may count as 0 if it is a rounding error of `from`, or of 0.001. `applied`, if it is not null,
+  /// gets the force with the sign of the step. NaN stays NaN.
+  virtual void slow_steps(std::size_t size, const Steps& steps, const double* share, double weight, LocalStates states,
+                          double* applied) const;
+  /// The power w f(w) of each step D.
+  virtual void powers(std::size_t size, double per_step, const double* D, LocalStates states, double* power) const;
 
  protected:
   const Law& law_;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "math/simd/elementary.hpp"
 #include "math/simd/vector_code.hpp"
 #include "slipfront/friction/law.hpp"
 
@@ -15,10 +17,10 @@ namespace slipfront::friction {
 /// Positions in one pass of the loops over many positions, whose values then fit into the nearest cache.
 constexpr std::size_t part_size = 64;
 
-/// Calls `task` with the first position of each part and its size, at most `part_size`.
-template <class Task>
+/// Calls `task` with the first position of each part and its size, at most `most`.
+template <std::size_t most = part_size, class Task>
 void in_parts(std::size_t size, const Task& task) {
-  for (std::size_t begin = 0; begin < size; begin += part_size) task(begin, std::min(part_size, size - begin));
+  for (std::size_t begin = 0; begin < size; begin += most) task(begin, std::min(most, size - begin));
 }
 
 /// Calls `task` with the first position of each part, its size, and the first state variable there, which it changes.
@@ -139,20 +141,94 @@ class VaryingForceOfSpeed final : public VaryingLaw<ForceOfSpeed<Force>> {
   Loops loops_{*this};
 };
 
+/// The speed of a step, which counts as 0 if it is a rounding error.
+SLIPFRONT_INLINE double free_speed(double per_step, double from, double next) {
+  const double step = std::fabs(next - from), scale = std::fabs(from);
+  return step <= 8 * 2.2e-16 * (scale > 1e-3 ? scale : 1e-3) ? 0.0 : step * per_step;
+}
+/// The end of a step that goes the way of `step` at this speed. NaN stays NaN.
+SLIPFRONT_INLINE double end_of_step(double step_per_speed, double from, double step, double speed) {
+  return from + (std::copysign(speed * step_per_speed, step) + 0 * step);
+}
+
+// A law has a closed form if, with its coefficient C, f is `force(C, w)` and v + s f(v) / C = free has one. This is
+// `slowed(s, free)`, or v / free is `left(s free)` with s = weight C, and `left_little` is its series for s free below
+// `little`.
+template <class Closed>
+concept HasLeft = requires {
+  Closed::left(1.0, 1.0);
+};
+template <class Closed>
+concept HasSeries = requires {
+  Closed::little;
+};
+
+template <class Closed>
+SLIPFRONT_INLINE double share_left(double s, double free) {
+  if constexpr (HasSeries<Closed>)
+    return s * free < Closed::little ? Closed::left_little(s * free) : Closed::left(s, free);
+  else
+    return Closed::left(s, free);
+}
+template <class Closed>
+SLIPFRONT_INLINE double slowed(double s, double free) {
+  if constexpr (HasLeft<Closed>)
+    return free * share_left<Closed>(s, free);
+  else
+    return Closed::slowed(s, free);
+}
+
 template <class Closed>
 SLIPFRONT_CLONES void closed_forces(double C, std::size_t size, const double* speed, double* force) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) force[i] = Closed::force(C, speed[i]);
 }
 template <class Closed>
+SLIPFRONT_CLONES void closed_powers(double C, std::size_t size, double per_step, const double* D, double* power) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double speed = std::fabs(D[i]) * per_step;
+    power[i] = speed * Closed::force(C, speed);
+  }
+}
+template <class Closed>
 SLIPFRONT_CLONES void closed_speeds(double s, std::size_t size, const double* share, const double* free,
                                     double* speed) {
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) speed[i] = Closed::slowed(share == nullptr ? s : s * share[i], free[i]);
+  for (std::size_t i = 0; i < size; ++i) speed[i] = slowed<Closed>(share == nullptr ? s : s * share[i], free[i]);
+}
+template <class Closed>
+SLIPFRONT_CLONES void closed_steps(double s, std::size_t size, const Steps& steps, const double* share) {
+  const double *const from = steps.from, per_step = steps.per_step, step_per_speed = 1 / per_step;
+  double* const next = steps.next;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double step = next[i] - from[i], speed = std::fabs(step) * per_step, s_here = share ? s * share[i] : s;
+    if constexpr (HasLeft<Closed>)
+      next[i] = from[i] + step * share_left<Closed>(s_here, speed);
+    else
+      next[i] = end_of_step(step_per_speed, from[i], step, Closed::slowed(s_here, speed));
+  }
+}
+/// Slows steps by the series. Returns whether it serves all of them; if not, it leaves them as they are.
+template <class Closed>
+SLIPFRONT_CLONES bool little_steps(double s, std::size_t size, const Steps& steps, const double* share) {
+  const double *const from = steps.from, per_step = steps.per_step;
+  double *const next = steps.next, before[part_size];
+  std::size_t others = 0;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double step = next[i] - from[i], speed = std::fabs(step) * per_step, s_here = share ? s * share[i] : s;
+    const double lost = s_here * speed;
+    others += lost < Closed::little ? 0u : 1u;
+    before[i] = next[i];
+    next[i] = from[i] + step * Closed::left_little(lost);
+  }
+  if (others > 0) std::copy_n(before, size, next);
+  return others == 0;
 }
 
-/// Vector code of a law for which the speed after friction has a closed form. With its coefficient C, `force(C, w)` is
-/// f, and `slowed(s, free)` solves v + s f(v) / C = free.
+/// Vector code of such a law.
 template <class Closed>
 class ClosedLoops final : public ForceLoops {
  public:
@@ -166,6 +242,21 @@ class ClosedLoops final : public ForceLoops {
   void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, LocalStates,
                           double* speed) const override {
     closed_speeds<Closed>(weight * C_, size, share, free, speed);
+  }
+  void slow_steps(std::size_t size, const Steps& all, const double* share, double weight, LocalStates states,
+                  double* applied) const override {
+    if (applied != nullptr) return ForceLoops::slow_steps(size, all, share, weight, states, applied);
+    if constexpr (HasSeries<Closed>)
+      in_parts(size, [&](std::size_t begin, std::size_t some) {
+        const Steps steps{all.per_step, all.from + begin, all.next + begin};
+        const double* const here = share == nullptr ? nullptr : share + begin;
+        if (!little_steps<Closed>(weight * C_, some, steps, here)) closed_steps<Closed>(weight * C_, some, steps, here);
+      });
+    else
+      closed_steps<Closed>(weight * C_, size, all, share);
+  }
+  void powers(std::size_t size, double per_step, const double* D, LocalStates, double* power) const override {
+    closed_powers<Closed>(C_, size, per_step, D, power);
   }
 
  private:

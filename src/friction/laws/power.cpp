@@ -121,7 +121,13 @@ void PowerRate::rates(std::size_t size, const double* fastest, const double* psi
 /// f = C w^2
 struct ClosedSquare {
   SLIPFRONT_INLINE static double force(double C, double speed) { return C * (speed * speed); }
-  SLIPFRONT_INLINE static double slowed(double s, double free) { return 2 * free / (1 + std::sqrt(1 + 4 * s * free)); }
+  SLIPFRONT_INLINE static double left(double s, double free) { return 2 / (1 + std::sqrt(1 + 4 * s * free)); }
+  /// The power series to 1e-18, with Catalan's numbers.
+  SLIPFRONT_INLINE static double left_little(double s_free) {
+    constexpr double c[] = {1, -1, 2, -5, 14};
+    return polynomial(c, s_free);
+  }
+  static constexpr double little = 1e-4;
 };
 
 class PowerLoops final : public ForceLoops {

@@ -47,7 +47,7 @@ class ViscousAverage final : public QuadratureAverage {
 
 struct ClosedViscous {
   SLIPFRONT_INLINE static double force(double C, double speed) { return C * speed; }
-  SLIPFRONT_INLINE static double slowed(double s, double free) { return free / (1 + s); }
+  SLIPFRONT_INLINE static double left(double s, double) { return 1 / (1 + s); }
 };
 
 class Viscous final : public Law {

@@ -116,16 +116,6 @@ TEST(ChainKernels, EnergyOfAContactThatChanges) {
   }
 }
 
-/// A step that is a rounding error of z, or of a thousandth of a turn, is none.
-TEST(ChainKernels, IgnoreSpeedsOfRoundingErrors) {
-  const double from[] = {10, 10, -10, 0, 0}, next[] = {10 + 1e-14, 10 + 1e-13, -10 - 1e-13, 1e-18, 1e-17};
-  double free[5];
-  EXPECT_TRUE(chains::free_speeds(4, from, next, free, 5));
-  for (const std::size_t j : {0u, 3u}) EXPECT_EQ(free[j], 0) << j;
-  for (const std::size_t j : {1u, 2u, 4u}) EXPECT_EQ(free[j], 4 * std::fabs(next[j] - from[j])) << j;
-  EXPECT_FALSE(chains::free_speeds(4, from, next, free, 1));
-}
-
 /// The polynomial in a^2 has the least error over the range of a^2 if its error is as large at 0 as in the middle.
 TEST(ChainKernels, ContactForceIsAsExactAtTheEndsAsBetween) {
   constexpr double eps = 0.03, most = 1.5;

@@ -79,10 +79,8 @@ void WorkMeter::add_friction(std::size_t begin, std::size_t end, const Steps& s)
     add_products(sums_of(dissipated, sums, begin, end), energy_of_turn_, s.applied, s.D);
     return;
   }
-  const std::size_t size = end - begin;
-  speeds(turn / dt_, s.D, s.scratch, size);
-  friction.loops().strengths(size, s.scratch, s.states, s.further);
-  add_products(sums_of(dissipated, sums, begin, end), dt_ * problem_->grid.spacing, s.scratch, s.further);
+  friction.loops().powers(end - begin, turn / dt_, s.D, s.states, s.scratch);
+  add_values(sums_of(dissipated, sums, begin, end), dt_ * problem_->grid.spacing, s.scratch);
 }
 
 namespace {
@@ -284,8 +282,7 @@ void Sweep::finish_step(const Tile& t, const LevelSites& s) {
                 .ahead = s.ahead,
                 .applied = applied_.data() + own,
                 .states = s.states.from(own),
-                .scratch = y_.data() + own,
-                .further = applied_.data() + own});
+                .scratch = y_.data() + own});
   }
   if (forces_.ages() && !forces_.contacts().acts())
     forces_.age(t.offset + static_cast<long>(s.left), s.right - s.left, s.before + s.left, s.now + s.left,

@@ -31,9 +31,9 @@ class WorkMeter {
   struct Steps {
     const double *D, *D_before, *u;  ///< u (turns) at the end of the step
     long ahead;                      ///< levels of its end after the present one of the forces
-    const double* applied;           ///< friction that is neither linear nor constant
+    const double* applied;           ///< friction that is steep at rest
     friction::LocalStates states;
-    double *scratch, *further;  ///< room for as many numbers; `further` may be `applied`
+    double* scratch;  ///< room for as many numbers
   };
   /// Measures all other work, for a step of such sites from the level of the forces.
   void add(const Forces& forces, std::size_t begin, std::size_t end, const Steps& steps);

@@ -319,46 +319,10 @@ SLIPFRONT_CLONES void shorten_steps(double most, const double* now, double* next
   }
 }
 
-SLIPFRONT_CLONES bool free_speeds(double per_step, const double* from, const double* next, double* free,
-                                  std::size_t size) {
-  std::uint64_t bits = 0;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) {
-    const double step = std::fabs(next[j] - from[j]), scale = std::fabs(from[j]);
-    free[j] = step <= 8 * 2.2e-16 * (scale > 1e-3 ? scale : 1e-3) ? 0.0 : step * per_step;
-    bits |= std::bit_cast<std::uint64_t>(free[j]);
-  }
-  return bits != 0;
-}
-
-SLIPFRONT_CLONES void take_speeds(double per_step, double per_weight, const double* from, const double* free,
-                                  const double* speed, double* next, double* force, std::size_t size) {
-  const double step_per_speed = 1 / per_step;
-  if (force != nullptr) {
-    SLIPFRONT_INDEPENDENT
-    for (std::size_t j = 0; j < size; ++j) {
-      const double step = next[j] - from[j];
-      force[j] = std::copysign((free[j] - speed[j]) * per_weight, step);
-      next[j] = from[j] + (std::copysign(speed[j] * step_per_speed, step) + 0 * step);
-    }
-    return;
-  }
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) {
-    const double step = next[j] - from[j];
-    next[j] = from[j] + (std::copysign(speed[j] * step_per_speed, step) + 0 * step);
-  }
-}
-
 SLIPFRONT_CLONES void velocities(double per_step, const double* now, const double* next, double* velocity,
                                  std::size_t size) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) velocity[j] = (next[j] - now[j]) * per_step;
-}
-
-SLIPFRONT_CLONES void speeds(double per_step, const double* D, double* speed, std::size_t size) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) speed[j] = std::fabs(D[j]) * per_step;
 }
 
 namespace {

@@ -126,18 +126,8 @@ void add_steady_drive(const double* drive, double* next, std::size_t size);
 /// site, but not reverse its motion. NaN stays NaN.
 void shorten_steps(double most, const double* now, double* next, std::size_t size);
 
-/// Sets `free` to |next - from| times `per_step`, and returns whether any of them is not 0. A step counts as 0 if it is
-/// a rounding error of z. Ahead of fronts, where z is smaller, it counts as 0 if it is a rounding error of a thousandth
-/// of a turn.
-bool free_speeds(double per_step, const double* from, const double* next, double* free, std::size_t size);
-/// Sets `next` so that the speed is `speed`, which friction has left of `free`. If `force` is not null, it gets the
-/// difference times `per_weight`, with the sign of the step. NaN stays NaN.
-void take_speeds(double per_step, double per_weight, const double* from, const double* free, const double* speed,
-                 double* next, double* force, std::size_t size);
 /// Sets `velocity` to (next - now) times `per_step`.
 void velocities(double per_step, const double* now, const double* next, double* velocity, std::size_t size);
-/// Sets `speed` to |D| times `per_step`.
-void speeds(double per_step, const double* D, double* speed, std::size_t size);
 /// Add `factor` times a or the products of a and b to the sums of blocks. The arrays begin at the first site of the
 /// blocks.
 void add_values(const BlockSums& to, double factor, const double* a);
