@@ -347,10 +347,28 @@ void Forces::next_coefficients(long offset, std::size_t begin, std::size_t end, 
   chain::contact_coefficients(scheme_.contact, contacts_.next(offset), coefficients, begin, end);
 }
 
+/// The sites of a level that begin_level computes, in whole vectors: the second loop needs y of one more site on each
+/// side that is no end.
+Forces::Range Forces::range_of(const EndConditions& ends, const LevelSites& s) {
+  return {(is_end(ends.left) ? s.left : s.left - 1) / lanes * lanes,
+          ((is_end(ends.right) ? s.right : s.right + 1) + lanes - 1) / lanes * lanes};
+}
+
+/// The part of it where Coulomb friction shortens steps in the same loop: without a load, and without the vector of an
+/// end, which changes after this loop. An absorbing end and a seam change more sites, or need steps without friction.
+Forces::Range Forces::shortened_at_once(const EndConditions& ends, const Range& all) const {
+  const Range none{all.end, all.end};
+  if (problem_.forcing || !nonlinear_ || !problem_.friction.constant_strength()) return none;
+  for (const EndCondition side : {ends.left, ends.right})
+    if (side == EndCondition::absorbing || side == EndCondition::seam) return none;
+  const Range part{all.begin + (is_end(ends.left) ? lanes : 0), all.end - (is_end(ends.right) ? lanes : 0)};
+  return part.begin < part.end ? part : none;
+}
+
+double Forces::longest_hold() const { return dt_ * dt_ * *problem_.friction.constant_strength() / turn; }
+
 void Forces::begin_level(const EndConditions& ends, const LevelSites& s, Outflow& outflow) const {
-  // The second loop needs y of one more site on each side that is no end.
-  const std::size_t begin = (is_end(ends.left) ? s.left : s.left - 1) / lanes * lanes;
-  const std::size_t end = ((is_end(ends.right) ? s.right : s.right + 1) + lanes - 1) / lanes * lanes;
+  const auto [begin, end] = range_of(ends, s);
   if (s.coefficients != nullptr)
     local_part_with_coefficients(scheme_.rule, s.coefficients, s.now, s.before, s.next, s.y, begin, end, s.step);
   else
@@ -358,7 +376,11 @@ void Forces::begin_level(const EndConditions& ends, const LevelSites& s, Outflow
   const auto index = [&s](long site) { return static_cast<std::size_t>(site - s.offset); };
   const std::size_t first = index(0), last = index(static_cast<long>(problem_.grid.sites) - 1);
   const EndSites bare = before_neighbours(ends, s.next, first, last);
-  add_neighbours(scheme_.rule.spread, s.y, s.next, begin, end);
+  const auto [from, to] = shortened_at_once(ends, {begin, end});
+  const double spread = scheme_.rule.spread;
+  add_neighbours(spread, s.y, s.next, begin, from);
+  if (from < to) add_neighbours_and_shorten(spread, longest_hold(), s.y, s.now, s.next, from, to);
+  add_neighbours(spread, s.y, s.next, to, end);
   mend_ends(ends, bare, scheme_.rule.spread, s.now, s.y, s.next, first, last, outflow);
 }
 
@@ -370,10 +392,10 @@ void Forces::add_load_and_friction(const EndConditions& ends, const LevelSites& 
     add_load(s, first, is_end(ends.right) ? to : (to + lanes - 1) / lanes * lanes);
   }
   if (!nonlinear_) return;
-  if (s.applied != nullptr) s.applied[s.left] = s.applied[s.right - 1] = 0;      // ends that are given have none
-  const std::size_t aligned = std::min(to, (from + lanes - 1) / lanes * lanes);  // a third faster for n = 2
-  if (aligned > from) add_friction(s, from, aligned);
-  add_friction(s, aligned, to);
+  if (s.applied != nullptr) s.applied[s.left] = s.applied[s.right - 1] = 0;  // ends that are given have none
+  const Range done = shortened_at_once(ends, range_of(ends, s));
+  add_friction(s, from, std::min(done.begin, to));
+  add_friction(s, std::max(done.end, from), to);
 }
 
 void Forces::add_load(const LevelSites& s, std::size_t begin, std::size_t end) const {
@@ -394,8 +416,9 @@ void Forces::add_load(const LevelSites& s, std::size_t begin, std::size_t end) c
 
 void Forces::add_friction(const LevelSites& s, std::size_t begin, std::size_t end) const {
   const friction::Friction& f = problem_.friction;
-  if (const auto strength = f.constant_strength()) {
-    shorten_steps(dt_ * dt_ * *strength / turn, s.now + begin, s.next + begin, end - begin);
+  if (begin >= end) return;
+  if (f.constant_strength()) {
+    shorten_steps(longest_hold(), s.now + begin, s.next + begin, end - begin);
     return;
   }
   // Friction is centred on the level if that is stable. A law that is steep at rest acts on the half step after the

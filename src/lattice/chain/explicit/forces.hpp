@@ -244,6 +244,13 @@ class Forces {
     return variables_ == 0 ? friction::LocalState{} : friction::LocalState{state_of(j), variables_};
   }
   std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
+  struct Range {
+    std::size_t begin, end;
+  };
+  static Range range_of(const EndConditions& ends, const LevelSites& sites);
+  Range shortened_at_once(const EndConditions& ends, const Range& all) const;
+  /// The longest step (turns) that Coulomb friction stops.
+  double longest_hold() const;
   void add_load(const LevelSites& sites, std::size_t begin, std::size_t end) const;
   void add_friction(const LevelSites& sites, std::size_t begin, std::size_t end) const;
   void age_contacts(long first, std::size_t size, const double* velocity, friction::EvolvingStates states);

@@ -252,12 +252,32 @@ SLIPFRONT_CLONES void displacements(const PeriodicForce& force, double eps, cons
   }
 }
 
+namespace {
+
+/// The end of a step from `now` to `next` after Coulomb friction.
+[[gnu::always_inline]] inline double shortened(double most, double now, double next) {
+  const double step = next - now, stopped = step < -most ? -most : step > most ? most : step;
+  return now + (step - stopped);
+}
+
+}  // namespace
+
 SLIPFRONT_CLONES void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end) {
   const std::size_t n = (end - begin) / lanes * lanes;
   const double *left = y + begin - 1, *right = y + begin + 1;
   next += begin;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < n; ++j) next[j] += spread * (left[j] + right[j]);
+}
+
+SLIPFRONT_CLONES void add_neighbours_and_shorten(double spread, double most, const double* y, const double* now,
+                                                 double* next, std::size_t begin, std::size_t end) {
+  const std::size_t n = (end - begin) / lanes * lanes;
+  const double *left = y + begin - 1, *right = y + begin + 1;
+  now += begin;
+  next += begin;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < n; ++j) next[j] = shortened(most, now[j], next[j] + spread * (left[j] + right[j]));
 }
 
 namespace {
@@ -313,10 +333,7 @@ SLIPFRONT_CLONES void add_steady_drive(const double* drive, double* next, std::s
 
 SLIPFRONT_CLONES void shorten_steps(double most, const double* now, double* next, std::size_t size) {
   SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < size; ++j) {
-    const double step = next[j] - now[j], stopped = step < -most ? -most : step > most ? most : step;
-    next[j] = now[j] + (step - stopped);
-  }
+  for (std::size_t j = 0; j < size; ++j) next[j] = shortened(most, now[j], next[j]);
 }
 
 SLIPFRONT_CLONES void velocities(double per_step, const double* now, const double* next, double* velocity,

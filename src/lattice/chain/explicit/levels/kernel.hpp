@@ -106,6 +106,9 @@ void measure_step(const StepOfU& step, const double* u_next, std::size_t size);
 
 /// The second loop. It reads y from begin - 1 to end.
 void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end);
+/// The same, and then shorten_steps.
+void add_neighbours_and_shorten(double spread, double most, const double* y, const double* now, double* next,
+                                std::size_t begin, std::size_t end);
 
 /// A force on consecutive sites as a sum of functions X of x, each times a weight that changes from level to level.
 /// `sums_of_neighbours` are the sums of X at both neighbours of each site.
