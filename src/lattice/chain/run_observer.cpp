@@ -90,7 +90,7 @@ double driving_force(const ScaledProblem& s, double end) {
   return by_stress + by_forcing;
 }
 
-/// A chain at one time, of which windows are parts of one. A snapshot asks for some hundred windows, and a short chain
+/// A chain at one time, of which windows are parts of one. A snapshot asks for some hundred windows, and a long chain
 /// would compute the same sites for each.
 class SeenOnce final : public Sites {
  public:
@@ -103,7 +103,7 @@ class SeenOnce final : public Sites {
   }
 
   static bool is_worth(const Sites& chain) {
-    constexpr std::size_t few_sites = 4096;
+    constexpr std::size_t few_sites = 131'072;  // some 20 MB
     return chain.ranks().size() == 1 && chain.problem().grid.sites <= few_sites;
   }
 
@@ -138,8 +138,11 @@ RunObserver::RunObserver(const ScaledProblem& scaled, const output::Schedule& sc
     : scaled_(scaled), schedule_(schedule), chain_(chain) {
   choose_windows();
   const double c = scaled_.scale;
-  for (std::size_t i = 0; i + 1 < schedule_.x_edges.size(); ++i)
-    first_u_.push_back(average_displacement(chain_, c * centre_of_cell(i), c * width_of_cell(i), 0));
+  for (std::size_t i = 0; i + 1 < schedule_.x_edges.size(); ++i) {
+    CellMeans means = means_of_cell(i);
+    first_u_.push_back(average_displacement(chain_, means.slip, 0));
+    if (SeenOnce::is_worth(chain_)) means_.push_back(std::move(means));
+  }
   const Grid& grid = chain_.problem().grid;
   if (scaled_.left + window_ / 2 <= 0 && grid.x(grid.sites - 1) / scaled_.scale - window_ / 2 >= 0)
     first_u_at_origin_ = average_displacement(chain_, 0, c * window_, 0);
@@ -217,6 +220,13 @@ Snapshot RunObserver::snapshot(double time) const {
   return s;
 }
 
+RunObserver::CellMeans RunObserver::means_of_cell(std::size_t i) const {
+  const Grid& grid = chain_.problem().grid;
+  const double c = scaled_.scale;
+  return {weights_of_mean(grid, c * centre_of_cell(i), c * width_of_cell(i)),
+          weights_of_smooth_mean(grid, c * middle_of_cell(i), c * least_width(i))};
+}
+
 double RunObserver::least_width(std::size_t i) const {
   return std::max(2 * (schedule_.x_edges[i + 1] - schedule_.x_edges[i]), smooth_window_);
 }
@@ -227,10 +237,12 @@ std::vector<double> RunObserver::add_profile(const Sites& sites, Snapshot& s, do
   std::vector<double> velocities;
   std::size_t peak = 0;
   for (std::size_t i = 0; i < first_u_.size(); ++i) {
-    const double u = average_displacement(sites, c * centre_of_cell(i), c * width_of_cell(i), c * time);
+    const CellMeans found = means_.empty() ? means_of_cell(i) : CellMeans{};
+    const CellMeans& means = means_.empty() ? found : means_[i];
+    const double u = average_displacement(sites, means.slip, c * time);
     const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i], middle = middle_of_cell(i);
     const double least = least_width(i);
-    BestAverage best{smooth_average(sites, c * middle, c * least, c * time), c * least, none, none};
+    BestAverage best{smooth_average(sites, means.smooth, c * time), c * least, none, none};
     velocities.push_back(best.average.velocity);
     if (widest_window_ > least) best = best_average(sites, c * middle, c * least, c * widest_window_, c * time);
     const SmoothAverage& a = best.average;

@@ -62,6 +62,12 @@ class RunObserver {
   BestAverage average_at_origin(const Sites& sites, double time) const;
   void widen_errors(Averages& averages, double time) const;
   /// Returns the slip velocities of windows of the least width, in which observers look for fronts.
+  /// The means over the window of the slip of a cell, and over that of the least width for its velocity and stress. A
+  /// short chain keeps those of all cells.
+  struct CellMeans {
+    SiteWeights slip, smooth;
+  };
+  CellMeans means_of_cell(std::size_t i) const;
   std::vector<double> add_profile(const Sites& sites, output::Snapshot& snapshot, double time) const;
   void add_origin(const Sites& sites, output::Snapshot& snapshot, double time) const;
   void add_energy(output::Snapshot& snapshot, const Totals& now) const;
@@ -77,6 +83,7 @@ class RunObserver {
   /// the best of those from smooth_window_ to widest_window_.
   double window_ = 0, smooth_window_ = 0, widest_window_ = 0;
   double densest_ = 0;  ///< the smaller spacing of the trains on either side of x = 0
+  std::vector<CellMeans> means_;
   // Values at t = 0.
   std::vector<double> first_u_;  ///< averages over the output cells
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;

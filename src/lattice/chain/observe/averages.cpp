@@ -87,9 +87,27 @@ std::vector<double> displacements(const Sites& chain, double time) {
   return chain.ranks().joined_at_first(mine);
 }
 
+namespace {
+
+/// The first of up to six sites around r, of `size` sites.
+long first_around(double r, long size, long points) {
+  return std::clamp<long>(static_cast<long>(std::floor(r)) - points / 2 + 1, 0, size - points);
+}
+
+/// Adds `share` times the weights of the values around r in the interpolant there.
+void add_interpolation(double r, double share, std::vector<double>& weights) {
+  const long size = static_cast<long>(weights.size()), points = std::min<long>(6, size),
+             first = first_around(r, size, points);
+  const auto of_values = equidistant_weights(static_cast<std::size_t>(points), r - static_cast<double>(first));
+  for (std::size_t j = 0; j < static_cast<std::size_t>(points); ++j)
+    weights[static_cast<std::size_t>(first) + j] += share * of_values[j];
+}
+
+}  // namespace
+
 double interpolated(std::span<const double> v, double r) {
-  const long n = static_cast<long>(v.size()), points = std::min<long>(6, n);
-  const long first = std::clamp<long>(static_cast<long>(std::floor(r)) - points / 2 + 1, 0, n - points);
+  const long size = static_cast<long>(v.size()), points = std::min<long>(6, size),
+             first = first_around(r, size, points);
   const auto weights = equidistant_weights(static_cast<std::size_t>(points), r - static_cast<double>(first));
   double sum = 0;
   for (std::size_t j = 0; j < static_cast<std::size_t>(points); ++j)
@@ -97,15 +115,9 @@ double interpolated(std::span<const double> v, double r) {
   return sum;
 }
 
-double integral(std::span<const double> v, double from, double to) {
+double SiteWeights::operator()(std::span<const double> values) const {
   double sum = 0;
-  for (double a = from; a < to;) {  // Gauss-Legendre with three points in every interval of the grid
-    const double b = std::fmin(std::floor(a) + 1, to), middle = (a + b) / 2, half = (b - a) / 2;
-    const double node = std::sqrt(0.6) * half;
-    sum += half *
-           (5 * interpolated(v, middle - node) + 8 * interpolated(v, middle) + 5 * interpolated(v, middle + node)) / 9;
-    a = b;
-  }
+  for (std::size_t j = 0; j < weights.size(); ++j) sum += weights[j] * values[j];
   return sum;
 }
 
@@ -136,49 +148,71 @@ class SomeSites {
   Window found_;
 };
 
-/// The sites around a window, and its ends, counted in these sites.
-struct SitesOfWindow {
-  SomeSites sites;
+/// The ends of a window in sites, of which the first sites that count are `begin` and `end`.
+struct Ends {
   double from, to;
-  double mean(std::vector<double> Window::*values) const { return integral(sites(values), from, to) / (to - from); }
+  std::size_t begin, end;
 };
 
-SitesOfWindow sites_of_window(const Sites& chain, double x, double width, double time) {
-  const Grid& grid = chain.problem().grid;
+Ends ends_of_window(const Grid& grid, double x, double width) {
   const double last = static_cast<double>(grid.sites - 1);
   const double from = (x - width / 2 - grid.left) / grid.spacing, to = (x + width / 2 - grid.left) / grid.spacing;
   if (!(width > 0) || !(from >= 0) || !(to <= last)) refuse_window(grid, x, width);
   const double begin = std::fmax(0, std::floor(from) - 3), end = std::fmin(last, std::ceil(to) + 3);
-  return {{chain, static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1, time}, from - begin, to - begin};
+  return {from - begin, to - begin, static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1};
 }
 
 }  // namespace
 
+SiteWeights weights_of_mean(const Grid& grid, double x, double width) {
+  const Ends ends = ends_of_window(grid, x, width);
+  SiteWeights mean{ends.begin, std::vector<double>(ends.end - ends.begin)};
+  for (double a = ends.from; a < ends.to;) {  // Gauss-Legendre with three points in every interval of the grid
+    const double b = std::fmin(std::floor(a) + 1, ends.to), middle = (a + b) / 2, half = (b - a) / 2;
+    const double node = std::sqrt(0.6) * half, share = half / 9 / (ends.to - ends.from);
+    add_interpolation(middle - node, 5 * share, mean.weights);
+    add_interpolation(middle, 8 * share, mean.weights);
+    add_interpolation(middle + node, 5 * share, mean.weights);
+    a = b;
+  }
+  return mean;
+}
+
 Average average(const Sites& chain, double x, double width, double time) {
-  const SitesOfWindow w = sites_of_window(chain, x, width, time);
-  const std::span<const double> u = w.sites(&Window::u);
-  return {x, width, w.mean(&Window::u), w.mean(&Window::velocity),
-          (interpolated(u, w.from) - interpolated(u, w.to)) / width};
+  const Grid& grid = chain.problem().grid;
+  const Ends ends = ends_of_window(grid, x, width);
+  const SiteWeights mean = weights_of_mean(grid, x, width);
+  const SomeSites sites(chain, ends.begin, ends.end, time);
+  const std::span<const double> u = sites(&Window::u);
+  return {x, width, mean(u), mean(sites(&Window::velocity)),
+          (interpolated(u, ends.from) - interpolated(u, ends.to)) / width};
+}
+
+double average_displacement(const Sites& chain, const SiteWeights& mean, double time) {
+  return mean(SomeSites(chain, mean.begin, mean.end(), time)(&Window::u));
 }
 
 double average_displacement(const Sites& chain, double x, double width, double time) {
-  return sites_of_window(chain, x, width, time).mean(&Window::u);
+  return average_displacement(chain, weights_of_mean(chain.problem().grid, x, width), time);
 }
 
 namespace {
 
 struct Range {
-  std::size_t begin, end;  ///< with weight
-  std::size_t low, high;   ///< two more on either side, for the elastic energy
+  std::size_t begin, end;
 };
+
+/// With two more sites on either side, as far as there are any, for the elastic energy.
+Range with_neighbours(const Grid& grid, const Range& r) {
+  return {r.begin < 2 ? 0 : r.begin - 2, std::min(r.end + 2, grid.sites)};
+}
 
 Range around(const Grid& grid, double x, double width) {
   const double last = static_cast<double>(grid.sites - 1);
   const double from = std::fmax(0, std::ceil((x - width / 2 - grid.left) / grid.spacing));
   const double to = std::fmin(last, std::floor((x + width / 2 - grid.left) / grid.spacing));
   if (!(width > 0) || !(from <= to)) refuse_window(grid, x, width);
-  const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to) + 1;
-  return {begin, end, begin < 2 ? 0 : begin - 2, std::min(end + 2, grid.sites)};
+  return {static_cast<std::size_t>(from), static_cast<std::size_t>(to) + 1};
 }
 
 /// Windows are up to these many factors of sqrt(2) narrower and wider than the one whose error they measure.
@@ -201,30 +235,38 @@ double energy_density(const Problem& p, const Window& w, std::size_t j) {
          elastic_energy(u, j, p.grid.sites, p.grid.spacing, p.model);
 }
 
-SmoothAverage smooth_average(const Sites& chain, double x, double width, double time) {
-  const Range sites = around(chain.problem().grid, x, width);
-  return smooth_average(chain, SomeSites(chain, sites.low, sites.high, time).window(), x, width);
-}
-
-SmoothAverage smooth_average(const Sites& chain, const Window& w, double x, double width) {
-  const Grid& grid = chain.problem().grid;
+/// The weight and its slope vanish at the ends: the sum over sites is as good as the integral.
+SiteWeights weights_of_smooth_mean(const Grid& grid, double x, double width) {
   const Range sites = around(grid, x, width);
-  if (sites.low < w.begin || sites.high > w.begin + w.x.size()) refuse_window(grid, x, width);
-  // The weight and its slope vanish at the ends: the sum over sites is as good as the integral.
-  SmoothAverage a{};
+  SiteWeights mean{sites.begin, {}};
   double sum = 0;
   for (std::size_t j = sites.begin; j < sites.end; ++j) {
+    mean.weights.push_back(1 + std::cos(2 * std::numbers::pi * (grid.x(j) - x) / width));
+    sum += mean.weights.back();
+  }
+  if (sum > 0)  // it is 0 at a single site at the very end of the window
+    for (double& weight : mean.weights) weight /= sum;
+  return mean;
+}
+
+SmoothAverage smooth_average(const Sites& chain, const SiteWeights& mean, double time) {
+  const Range all = with_neighbours(chain.problem().grid, {mean.begin, mean.end()});
+  return smooth_average(chain, SomeSites(chain, all.begin, all.end, time).window(), mean);
+}
+
+SmoothAverage smooth_average(const Sites& chain, double x, double width, double time) {
+  return smooth_average(chain, weights_of_smooth_mean(chain.problem().grid, x, width), time);
+}
+
+SmoothAverage smooth_average(const Sites& chain, const Window& w, const SiteWeights& mean) {
+  SmoothAverage a{};
+  for (std::size_t j = mean.begin; j < mean.end(); ++j) {
     const std::size_t i = j - w.begin;
-    const double weight = 1 + std::cos(2 * std::numbers::pi * (w.x[i] - x) / width);
-    sum += weight;
+    const double weight = mean.weights[j - mean.begin];
     a.velocity += weight * w.velocity[i];
     a.stress += weight * w.stress[i];
     a.energy += weight * (w.energy.empty() ? energy_density(chain.problem(), w, j) : w.energy[i]);
   }
-  if (!(sum > 0)) sum = 1;  // a single site, at the very end of the window
-  a.velocity /= sum;
-  a.stress /= sum;
-  a.energy /= sum;
   return a;
 }
 
@@ -234,12 +276,13 @@ BestAverage best_average(const Sites& chain, double x, double least, double most
   int candidates = 1, last = 0;  // the first window may be cut by an end, others not
   while (width_of(candidates) <= most * (1 + 1e-9) && is_whole(grid, x, width_of(candidates + wider))) ++candidates;
   while (last < candidates - 1 + wider && is_whole(grid, x, width_of(last + 1))) ++last;
-  const Range all = around(grid, x, width_of(last));
-  const SomeSites sites(chain, all.low, all.high, time);
+  const Range all = with_neighbours(grid, around(grid, x, width_of(last)));
+  const SomeSites sites(chain, all.begin, all.end, time);
   std::vector<SmoothAverage> averages;  // the first is that of width_of(-narrower)
   for (int i = -narrower; i <= last; ++i)
-    averages.push_back(i < 0 && width_of(i) < 2 * grid.spacing ? SmoothAverage{none, none, none}
-                                                               : smooth_average(chain, sites.window(), x, width_of(i)));
+    averages.push_back(i < 0 && width_of(i) < 2 * grid.spacing
+                           ? SmoothAverage{none, none, none}
+                           : smooth_average(chain, sites.window(), weights_of_smooth_mean(grid, x, width_of(i))));
   const auto average_at = [&](int i) -> const SmoothAverage& { return *(averages.begin() + narrower + i); };
   BestAverage best{};
   for (int i = 0; i < candidates; ++i) {

@@ -42,8 +42,21 @@ void for_own_sites(const Sites& chain, const Measure& measure, const Done& done)
 /// Lagrange interpolation of v through the (up to) six sites around r (counted in sites of v).
 double interpolated(std::span<const double> v, double r);
 
-/// Integral of the interpolant over [from, to], in sites.
-double integral(std::span<const double> v, double from, double to);
+/// A mean over some sites: the sum of weights times values at sites from `begin` on.
+struct SiteWeights {
+  std::size_t begin = 0;
+  std::vector<double> weights = {};
+
+  std::size_t end() const { return begin + weights.size(); }
+  double operator()(std::span<const double> values) const;
+};
+
+/// The mean of the interpolant over [x - width / 2, x + width / 2]. \throws InputError for a window outside the chain
+/// or of no width.
+SiteWeights weights_of_mean(const Grid& grid, double x, double width);
+/// The mean with the weight 1 + cos(2 pi (x' - x) / width), over the part of such a window that is on the chain.
+/// \throws InputError for a window without width or outside the chain.
+SiteWeights weights_of_smooth_mean(const Grid& grid, double x, double width);
 
 /// \throws InputError: a window that is not on the chain, or has no width.
 [[noreturn]] void refuse_window(const Grid& grid, double x, double width);
@@ -61,6 +74,7 @@ struct Average {
 Average average(const Sites& chain, double x, double width, double time);
 /// (all) Only the displacement of such an average, in less time.
 double average_displacement(const Sites& chain, double x, double width, double time);
+double average_displacement(const Sites& chain, const SiteWeights& mean, double time);
 
 /// An average that smooths out single dislocations.
 struct SmoothAverage {
@@ -78,9 +92,10 @@ double energy_density(const Problem& problem, const Window& sites, std::size_t j
 /// less would change the velocity much. With this weight, the ripple of the train falls with the cube of the number of
 /// dislocations in the window. \throws InputError for a window without width or outside the chain.
 SmoothAverage smooth_average(const Sites& chain, double x, double width, double time);
+SmoothAverage smooth_average(const Sites& chain, const SiteWeights& mean, double time);
 /// Computes such an average from sites that the caller has already, for many averages at once. \throws InputError
 /// unless `sites` extends the window by two sites on either side.
-SmoothAverage smooth_average(const Sites& chain, const Window& sites, double x, double width);
+SmoothAverage smooth_average(const Sites& chain, const Window& sites, const SiteWeights& mean);
 
 /// A smooth average over the best of several windows.
 struct BestAverage {
