@@ -106,7 +106,7 @@ void measure_step(const StepOfU& step, const double* u_next, std::size_t size);
 
 /// The second loop. It reads y from begin - 1 to end.
 void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end);
-/// The same, and then shorten_steps.
+/// Adds them, and then shortens steps as shorten_steps does.
 void add_neighbours_and_shorten(double spread, double most, const double* y, const double* now, double* next,
                                 std::size_t begin, std::size_t end);
 
