@@ -101,6 +101,9 @@ void plane_sites(benchmark::State& state) {
 }
 BENCHMARK(plane_sites)
     ->Args({200, 1, 0})
+    ->Args({200, 1, 1})
+    ->Args({200, 1, 2})
+    ->Args({200, 1, 3})
     ->Args({1000, 1, 0})
     ->Args({1000, 1, 1})
     ->Args({1000, 1, 2})

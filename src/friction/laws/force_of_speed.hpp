@@ -197,18 +197,32 @@ SLIPFRONT_CLONES void closed_speeds(double s, std::size_t size, const double* sh
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) speed[i] = slowed<Closed>(share == nullptr ? s : s * share[i], free[i]);
 }
-template <class Closed>
-SLIPFRONT_CLONES void closed_steps(double s, std::size_t size, const Steps& steps, const double* share) {
+/// `applied(i, free, speed, step)` is called with the speeds before and after friction.
+template <class Closed, class Applied>
+[[gnu::always_inline]] inline void each_closed_step(double s, std::size_t size, const Steps& steps, const double* share,
+                                                    const Applied& applied) {
   const double *const from = steps.from, per_step = steps.per_step, step_per_speed = 1 / per_step;
   double* const next = steps.next;
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
-    const double step = next[i] - from[i], speed = std::fabs(step) * per_step, s_here = share ? s * share[i] : s;
+    const double step = next[i] - from[i], free = std::fabs(step) * per_step, s_here = share ? s * share[i] : s;
+    const double speed = slowed<Closed>(s_here, free);
     if constexpr (HasLeft<Closed>)
-      next[i] = from[i] + step * share_left<Closed>(s_here, speed);
+      next[i] = from[i] + step * share_left<Closed>(s_here, free);
     else
-      next[i] = end_of_step(step_per_speed, from[i], step, Closed::slowed(s_here, speed));
+      next[i] = end_of_step(step_per_speed, from[i], step, speed);
+    applied(i, free, speed, step);
   }
+}
+template <class Closed>
+SLIPFRONT_CLONES void closed_steps(double s, std::size_t size, const Steps& steps, const double* share,
+                                   double per_weight, double* applied) {
+  if (applied == nullptr)
+    each_closed_step<Closed>(s, size, steps, share, [](std::size_t, double, double, double) {});
+  else
+    each_closed_step<Closed>(s, size, steps, share, [=](std::size_t i, double free, double speed, double step) {
+      applied[i] = std::copysign((free - speed) * per_weight, step);
+    });
 }
 /// Slows steps by the series. Returns whether it serves all of them; if not, it leaves them as they are.
 template <class Closed>
@@ -243,17 +257,20 @@ class ClosedLoops final : public ForceLoops {
                           double* speed) const override {
     closed_speeds<Closed>(weight * C_, size, share, free, speed);
   }
-  void slow_steps(std::size_t size, const Steps& all, const double* share, double weight, LocalStates states,
+  void slow_steps(std::size_t size, const Steps& all, const double* share, double weight, LocalStates,
                   double* applied) const override {
-    if (applied != nullptr) return ForceLoops::slow_steps(size, all, share, weight, states, applied);
+    const double strength = weight * C_;
+    const auto slow = [&](std::size_t begin, std::size_t some) {
+      const Steps steps{all.per_step, all.from + begin, all.next + begin};
+      const double* const here = share == nullptr ? nullptr : share + begin;
+      if constexpr (HasSeries<Closed>)
+        if (applied == nullptr && little_steps<Closed>(strength, some, steps, here)) return;
+      closed_steps<Closed>(strength, some, steps, here, 1 / weight, applied == nullptr ? nullptr : applied + begin);
+    };
     if constexpr (HasSeries<Closed>)
-      in_parts(size, [&](std::size_t begin, std::size_t some) {
-        const Steps steps{all.per_step, all.from + begin, all.next + begin};
-        const double* const here = share == nullptr ? nullptr : share + begin;
-        if (!little_steps<Closed>(weight * C_, some, steps, here)) closed_steps<Closed>(weight * C_, some, steps, here);
-      });
+      in_parts(size, slow);
     else
-      closed_steps<Closed>(weight * C_, size, all, share);
+      slow(0, size);
   }
   void powers(std::size_t size, double per_step, const double* D, LocalStates, double* power) const override {
     closed_powers<Closed>(C_, size, per_step, D, power);

@@ -48,8 +48,7 @@ Stepper::Stepper(const Problem& problem, const Sites& sites, int threads, const 
           std::sqrt(2 / (shape_.per_hx2 + shape_.per_hy2))),
       loads_(problem, sites),
       friction_(problem, sites, dt_),
-      work_of_row_(sites.ny),
-      v_(friction_.is_viscous() ? sites.size() : 0) {}
+      work_of_row_(sites.ny) {}
 
 void Stepper::fill_ends(double* row) const {
   double* const last = row + sites_.nx;
@@ -124,17 +123,14 @@ bool Stepper::acts_on_steps() const {
   return friction_.acts() || problem_.edges == Edges::absorbing || !loads_.force().empty();
 }
 
-/// Applies friction to the step of a row, finds the work, and keeps its accelerations for the next step.
-void Stepper::rub(const Motion& m, std::size_t row, const double* v, const double* v_tt, const double* before,
-                  double* after) {
-  const std::size_t first = sites_.at(0, row);
-  if (friction_.is_viscous()) std::copy_n(v, sites_.nx, &v_[first]);
-  const Rates rates{v, friction_.is_viscous() ? &m.v_old[first] : nullptr, v_tt};
-  const FrictionWork work = friction_.slow(row, problem_.nucleation_has_begun(time_of(m)), rates, before, after);
-  const double* const force = row_of(loads_.force(), sites_, static_cast<std::ptrdiff_t>(row));
-  work_of_row_[row] = {.dissipated = work.dissipated,
-                       .supplied = force ? work_of(sites_.nx, force, before, after) : 0,
-                       .radiated = work.radiated};
+/// Applies friction to the step of a part of a row, and adds the work.
+void Stepper::rub(const Motion& m, const RowPart& part, const Rates& rates, const double* before, double* after) {
+  const FrictionWork work = friction_.slow(part, problem_.nucleation_has_begun(time_of(m)), rates, before, after);
+  const double* const force = row_of(loads_.force(), sites_, static_cast<std::ptrdiff_t>(part.row));
+  RowWork& of_row = work_of_row_[part.row];
+  of_row.dissipated += work.dissipated;
+  of_row.radiated += work.radiated;
+  if (force) of_row.supplied += work_of(part.size, force + part.begin, before, after);
 }
 
 /// The accelerations of the five rows around one. Each row is found once, and replaces the one five rows before it.
@@ -176,31 +172,64 @@ class Stepper::Window {
 };
 
 /// Steps rows [first, last).
-void Stepper::step_rows(const Motion& m, std::size_t first, std::size_t last, std::vector<double>& next) {
+void Stepper::step_rows(const Motion& m, std::size_t first, std::size_t last, Stepped to) {
   Window window(*this);
-  std::vector<double> v_tt(sites_.nx), before(acts_on_steps() ? sites_.nx : 0);
   const auto begin = static_cast<std::ptrdiff_t>(first);
   for (std::ptrdiff_t j = begin - 2; j < begin + 2; ++j) window.find(m.u, j);
   for (std::size_t row = first; row < last; ++row) {
     const auto j = static_cast<std::ptrdiff_t>(row);
     window.find(m.u, j + 2);
-    const Acceleration now = window.at(j);
-    double* const after = &next[sites_.at(0, row)];
-    std::copy_n(after, before.size(), before.data());
-    step_row(shape_, dt_, &m.u[sites_.at(0, row)], now, window.rated_around(j), row_of(sites_.moves, sites_, j),
-             v_tt.data(), after);
-    if (!before.empty()) rub(m, row, now.v, v_tt.data(), before.data(), after);
+    work_of_row_[row] = {};
+    for (RowPart part{row, 0, 0}; part.begin < sites_.nx; part.begin += part.size) {
+      part.size = std::min(RowPart::most, sites_.nx - part.begin);
+      step_part(m, part, window, to);
+    }
   }
 }
 
-void Stepper::step(const Motion& m, std::vector<double>& next) {
+/// Asks the processor to load what the next row reads from memory.
+void Stepper::prefetch(const Motion& m, const RowPart& part, const Stepped& to) const {
+  if (part.row + 1 >= sites_.ny) return;
+  constexpr std::size_t together = 8;
+  const std::size_t next = sites_.at(part.begin, part.row + 1), two_rows = 2 * sites_.stride();
+  const auto load = [&](const std::vector<double>& values, std::size_t from) {
+    if (!values.empty())
+      for (std::size_t i = 0; i < part.size; i += together) __builtin_prefetch(&values[from + i], 1, 2);
+  };
+  load(to.next, next);
+  load(to.v_old, next);
+  load(sites_.viscous, next);
+  load(m.u, next + 2 * two_rows);
+  load(sites_.contact2, next + two_rows);
+  load(loads_.force(), next + two_rows);
+}
+
+void Stepper::step_part(const Motion& m, const RowPart& part, Window& window, Stepped to) {
+  const auto j = static_cast<std::ptrdiff_t>(part.row);
+  const std::size_t begin = part.begin, at = sites_.at(begin, part.row);
+  std::array<double, RowPart::most> v_tt, before;
+  const Acceleration row = window.at(j), now{row.v + begin, row.sine + begin, row.cosine + begin};
+  FiveRows rated = window.rated_around(j);
+  for (const double*& from : rated) from += begin;
+  const double* const moves = row_of(sites_.moves, sites_, j);
+  double* const after = &to.next[at];
+  RowShape shape = shape_;
+  shape.sites = part.size;
+  prefetch(m, part, to);
+  if (acts_on_steps_) std::copy_n(after, part.size, before.data());
+  step_row(shape, dt_, &m.u[at], now, rated, moves ? moves + begin : nullptr, v_tt.data(), after);
+  if (acts_on_steps_)
+    rub(m, part, {now.v, v_tt.data(), to.v_old.empty() ? nullptr : &to.v_old[at]}, before.data(), after);
+}
+
+void Stepper::step(const Motion& m, Stepped to) {
   loads_.find(time_of(m));
+  acts_on_steps_ = acts_on_steps();
   const auto threads = static_cast<std::size_t>(std::max(threads_, 1));
   const std::size_t rows = std::max(fewest_rows_of_a_block, (sites_.ny + threads - 1) / threads);
-  for_each_on_team((sites_.ny + rows - 1) / rows, threads_, [&](std::size_t block) {
-    step_rows(m, block * rows, std::min((block + 1) * rows, sites_.ny), next);
-  });
-  fill_ghosts(next);
+  for_each_on_team((sites_.ny + rows - 1) / rows, threads_,
+                   [&](std::size_t block) { step_rows(m, block * rows, std::min((block + 1) * rows, sites_.ny), to); });
+  fill_ghosts(to.next);
 }
 
 std::vector<double> Stepper::accelerations_at_rest(std::vector<double> u) const {
@@ -238,9 +267,8 @@ Motion Stepper::start(std::vector<double> u) {
 bool Stepper::advance(Motion& m, double time, const std::function<bool()>& interrupted) {
   const double near = time - dt_ / 2 / sites_.scale;
   while (time_of(m) < near) {
-    step(m, m.old);
+    step(m, {m.old, m.v_old});
     std::swap(m.u, m.old);
-    std::swap(m.v_old, v_);
     for_each_on_team(sites_.ny, threads_, [&](std::size_t j) {
       m.work[j].dissipated += work_of_row_[j].dissipated;
       m.work[j].supplied += work_of_row_[j].supplied;
@@ -277,7 +305,8 @@ void Stepper::find_velocity(const std::vector<double>& u, const std::vector<doub
 /// Takes one more step, for the velocity in the middle of two steps.
 void Stepper::look_at(const Motion& m, double time, Sums& look) {
   next_ = m.old;
-  step(m, next_);
+  v_next_ = m.v_old;
+  step(m, {next_, v_next_});
   look.time = time;
   look.u.resize(sites_.size());
   look.velocity.resize(sites_.size());

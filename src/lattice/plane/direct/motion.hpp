@@ -54,17 +54,23 @@ class Stepper {
   double time_of(const Motion& motion) const { return static_cast<double>(motion.steps) * dt_ / sites_.scale; }
 
  private:
-  /// Finds u one step later in `next`, which has u one step before on entry, and the work of this step.
-  void step(const Motion& motion, std::vector<double>& next);
-  void step_rows(const Motion& motion, std::size_t first, std::size_t last, std::vector<double>& next);
+  /// `next` has u one step before on entry, and u one step later on return; `v_old` likewise the accelerations without
+  /// friction one step before and those of the step.
+  struct Stepped {
+    std::vector<double>&next, &v_old;
+  };
   class Window;
+  /// Takes a step, and finds its work.
+  void step(const Motion& motion, Stepped to);
+  void step_rows(const Motion& motion, std::size_t first, std::size_t last, Stepped to);
+  void step_part(const Motion& motion, const RowPart& part, Window& window, Stepped to);
+  void prefetch(const Motion& motion, const RowPart& part, const Stepped& to) const;
   /// Whether friction, edges or forces do work in a step.
   bool acts_on_steps() const;
   void accelerate_row(const std::vector<double>& u, std::ptrdiff_t row, const Acceleration& result) const;
   template <class Each>
   void for_each_acceleration(const std::vector<double>& u, const Each& each) const;
-  void rub(const Motion& motion, std::size_t row, const double* v, const double* v_tt, const double* before,
-           double* after);
+  void rub(const Motion& motion, const RowPart& part, const Rates& rates, const double* before, double* after);
   void fill_ends(double* row) const;
   std::ptrdiff_t inside(std::ptrdiff_t row) const;
   std::vector<double> rates_of_change(const std::vector<double>& v, std::size_t row, const Acceleration& now) const;
@@ -86,9 +92,9 @@ class Stepper {
   double dt_;  ///< stretched
   Loads loads_;
   SiteFriction friction_;
-  std::vector<RowWork> work_of_row_;  ///< in the last step
-  std::vector<double> next_;          ///< one step after a look
-  std::vector<double> v_;  ///< accelerations without friction in the last step; empty unless friction is viscous
+  std::vector<RowWork> work_of_row_;   ///< in the last step
+  std::vector<double> next_, v_next_;  ///< one step after a look
+  bool acts_on_steps_ = false;         ///< acts_on_steps() in the last step
 };
 
 }  // namespace slipfront::plane

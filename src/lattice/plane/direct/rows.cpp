@@ -155,22 +155,6 @@ SLIPFRONT_CLONES void accelerate(const RowShape& shape, const FiveRows& u, const
     accelerate<false>(shape, u, forces, result);
 }
 
-SLIPFRONT_CLONES void free_speeds(std::size_t sites, double dt, const double* before, const double* after,
-                                  double* free) {
-  const double per_two_dt = 0.5 / dt;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < sites; ++i) free[i] = std::fabs(after[i] - before[i]) * per_two_dt;
-}
-
-SLIPFRONT_CLONES double take_speeds(std::size_t sites, double dt, const double* free, const double* speed,
-                                    const double* before, double* after) {
-  const double two_dt = 2 * dt;
-  return 2 * sum(sites, [=](std::size_t i) {
-           after[i] = before[i] + std::copysign(two_dt * speed[i], after[i] - before[i]);
-           return (free[i] - speed[i]) * speed[i];
-         });
-}
-
 SLIPFRONT_CLONES void step_row(const RowShape& shape, double dt, const double* u, const Acceleration& now,
                                const FiveRows& rated, const double* moves, double* v_tt, double* old) {
   if (moves)
@@ -187,12 +171,14 @@ SLIPFRONT_CLONES void add_substrate_rate(std::size_t sites, const double* v, con
 
 SLIPFRONT_CLONES double rub_viscous(std::size_t sites, double dt, const double* viscous, const Rates& rates,
                                     const double* before, double* after) {
-  const double *const v = rates.v, *const v_old = rates.v_old, *const v_tt = rates.v_tt;
+  const double *const v = rates.v, *const v_tt = rates.v_tt;
+  double* const v_old = rates.v_old;
   const double half = 0.5 * dt, per_dt = 1 / dt, per_two_dt = 0.5 / dt, excess = dt * dt / 6;
   return dt * sum(sites, [=](std::size_t i) {
            const double step = (after[i] - before[i]) / (1 + half * viscous[i]);
            after[i] = before[i] + step;
            const double v_t = (v[i] - v_old[i]) * per_dt + half * v_tt[i];
+           v_old[i] = v[i];
            const double u_t = step * per_two_dt - excess * v_t;
            return viscous[i] * u_t * u_t;
          });

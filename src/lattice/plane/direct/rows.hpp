@@ -45,19 +45,14 @@ void step_row(const RowShape& shape, double dt, const double* u, const Accelerat
 void add_substrate_rate(std::size_t sites, const double* v, const double* u_t, const Acceleration& now,
                         const double* moves, double* rate);
 
-/// Accelerations without friction of a row in the middle of a step, one step before, and their rate.
+/// Accelerations without friction of sites in the middle of a step, one step before, and their rate.
 struct Rates {
-  const double *v, *v_old, *v_tt;
+  const double *v, *v_tt;
+  double* v_old;
 };
 /// Slows a step from u(t - dt), `before`, to u(t + dt), `after`, by the implicit friction C D, D = (after - before) /
-/// (2 dt). Returns its work over dt, which is that of u_t = D - dt^2 / 6 v_t.
+/// (2 dt). Returns its work over dt, which is that of u_t = D - dt^2 / 6 v_t. `v_old` becomes `v`.
 double rub_viscous(std::size_t sites, double dt, const double* viscous, const Rates& rates, const double* before,
-                   double* after);
-
-/// Speeds of a step over 2 dt before friction; and the step that friction leaves at other speeds. Returns the work of
-/// friction over dt, which is (free - speed) / (dt / 2).
-void free_speeds(std::size_t sites, double dt, const double* before, const double* after, double* free);
-double take_speeds(std::size_t sites, double dt, const double* free, const double* speed, const double* before,
                    double* after);
 
 /// Work of a force in the middle of a step from `before` to `after`, over two steps.

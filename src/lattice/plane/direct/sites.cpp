@@ -62,44 +62,49 @@ SiteFriction::SiteFriction(const Problem& problem, const Sites& sites, double dt
                     std::span(states_).subspan(each_ * site, each_));
 }
 
-FrictionWork SiteFriction::slow(std::size_t j, bool began, const Rates& rates, const double* before,
+FrictionWork SiteFriction::slow(const RowPart& part, bool began, const Rates& rates, const double* before,
                                 double* after) const {
   FrictionWork work;
-  if (problem_.edges == Edges::absorbing) work.radiated = absorb(j, before, after);
+  if (problem_.edges == Edges::absorbing) work.radiated = absorb(part, before, after);
   if (is_viscous())
-    work.dissipated = rub_viscous(sites_.nx, dt_, &sites_.viscous[sites_.at(0, j)], rates, before, after);
+    work.dissipated =
+        rub_viscous(part.size, dt_, &sites_.viscous[sites_.at(part.begin, part.row)], rates, before, after);
   else if (friction_.acts())
-    work.dissipated = rub_by_law(j, began, before, after);
+    work.dissipated = rub_by_law(part, began, before, after);
   return work;
 }
 
 /// A wave that meets an edge at a right angle leaves if the stress there is -u_t, in the unit of u_x. The site next to
 /// the edge, of the width h, is slowed by u_t / h.
-double SiteFriction::absorb(std::size_t j, const double* before, double* after) const {
+double SiteFriction::absorb(const RowPart& part, const double* before, double* after) const {
   double work = 0;
   const auto slow_site = [&](std::size_t i, double rate) {
     after[i] = before[i] + (after[i] - before[i]) / (1 + 0.5 * dt_ * rate);
     const double velocity = (after[i] - before[i]) / (2 * dt_);
     work += rate * velocity * velocity * dt_;
   };
-  const bool last_row = sites_.on_edge(static_cast<std::ptrdiff_t>(j));
-  for (std::size_t i = 0; i < sites_.nx; ++i) {
-    const bool last_column = i == 0 || i + 1 == sites_.nx;
-    if (last_row || last_column) slow_site(i, (last_row ? 1 / sites_.hy : 0) + (last_column ? 1 / sites_.hx : 0));
-    if (!last_row && i == 0) i = sites_.nx - 2;
+  const double by_row = sites_.on_edge(static_cast<std::ptrdiff_t>(part.row)) ? 1 / sites_.hy : 0;
+  const std::size_t last = part.begin + part.size - 1;
+  for (std::size_t i = part.begin; i <= last; ++i) {
+    const bool at_end = i == 0 || i + 1 == sites_.nx;
+    if (by_row == 0 && !at_end) i = std::max(i, std::min(last, sites_.nx - 2));  // the next is the last, or none
+    if (by_row != 0 || at_end) slow_site(i - part.begin, by_row + (at_end ? 1 / sites_.hx : 0));
   }
   return work;
 }
 
-double SiteFriction::rub_by_law(std::size_t j, bool began, const double* before, double* after) const {
-  const std::size_t n = sites_.nx;
-  std::vector<double> free(n), speed(n);
-  free_speeds(n, dt_, before, after, free.data());
-  friction_.loops().speeds_after(n, free.data(), dt_ / 2, states_of(j), speed.data());
-  const char* const patch = began && !patch_.empty() ? &patch_[sites_.at(0, j)] : nullptr;
-  for (std::size_t i = 0; patch != nullptr && i < n; ++i)
-    if (patch[i] != 0) speed[i] = free[i];  // nothing holds the patch
-  return take_speeds(n, dt_, free.data(), speed.data(), before, after);
+double SiteFriction::rub_by_law(const RowPart& part, bool began, const double* before, double* after) const {
+  const char* const patch = began && !patch_.empty() ? &patch_[sites_.at(part.begin, part.row)] : nullptr;
+  std::array<double, RowPart::most> free, force;
+  if (patch != nullptr) std::copy_n(after, part.size, free.data());
+  friction_.loops().slow_steps(part.size, {0.5 / dt_, before, after}, nullptr, dt_ / 2, states_of(part.row, part.begin),
+                               force.data());
+  for (std::size_t i = 0; patch != nullptr && i < part.size; ++i) {
+    if (patch[i] == 0) continue;  // nothing holds the patch
+    after[i] = free[i];
+    force[i] = 0;
+  }
+  return work_of(part.size, force.data(), before, after);
 }
 
 void SiteFriction::age(std::size_t j, const double* now, const double* after) {
@@ -115,7 +120,7 @@ void SiteFriction::resist(std::size_t j, bool began, double* acceleration) const
   const char* const patch = began && !patch_.empty() ? &patch_[sites_.at(0, j)] : nullptr;
   for (std::size_t i = 0; i < sites_.nx; ++i) {
     if (patch && patch[i] != 0) continue;
-    const double strength = friction_.law().strength(0, states_of(j).at(i));
+    const double strength = friction_.law().strength(0, states_of(j, i).at(0));
     acceleration[i] = std::copysign(std::fmax(std::fabs(acceleration[i]) - strength, 0), acceleration[i]);
   }
 }

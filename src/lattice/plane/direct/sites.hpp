@@ -113,6 +113,12 @@ struct FrictionWork {
   double dissipated = 0, radiated = 0;
 };
 
+/// Consecutive sites of a row, so few that what a step has of them stays in the nearest cache.
+struct RowPart {
+  static constexpr std::size_t most = 256;
+  std::size_t row, begin, size;
+};
+
 class SiteFriction {
  public:
   SiteFriction(const Problem& problem, const Sites& sites, double dt);
@@ -121,11 +127,11 @@ class SiteFriction {
   bool is_viscous() const { return !sites_.viscous.empty(); }
   /// Whether there is any friction.
   bool acts() const { return is_viscous() || friction_.acts(); }
-  /// Slows a step of row j from u(t - dt), `before`, to u(t + dt), `after`. `began`: whether nucleation has begun. The
-  /// force is that of D = (after - before) / (2 dt): for f = C w this is of fourth order, because the terms of v_t in
-  /// u_t = D - dt^2 / 6 v_t and in dt^2 / 12 (v - f)_tt cancel. The work of f = C w is that
-  /// of u_t to fourth order, and the work of another law that of D.
-  FrictionWork slow(std::size_t j, bool began, const Rates& rates, const double* before, double* after) const;
+  /// Slows a step of a part of a row from u(t - dt), `before`, to u(t + dt), `after`. `began`: whether nucleation has
+  /// begun. The force is that of D = (after - before) / (2 dt): for f = C w this is of fourth order, because the terms
+  /// of v_t in u_t = D - dt^2 / 6 v_t and in dt^2 / 12 (v - f)_tt cancel. The work of f = C w is that of u_t to fourth
+  /// order, and the work of another law that of D.
+  FrictionWork slow(const RowPart& part, bool began, const Rates& rates, const double* before, double* after) const;
   /// Changes the states of row j by the slip from `now` to `after`.
   void age(std::size_t j, const double* now, const double* after);
   /// Reduces the acceleration of row j at rest by the strength of friction, at t = 0.
@@ -136,9 +142,11 @@ class SiteFriction {
   void set_states(std::vector<double> values) { states_ = std::move(values); }
 
  private:
-  double absorb(std::size_t j, const double* before, double* after) const;
-  double rub_by_law(std::size_t j, bool began, const double* before, double* after) const;
-  friction::LocalStates states_of(std::size_t j) const { return {states_.data() + j * sites_.nx * each_, each_}; }
+  double absorb(const RowPart& part, const double* before, double* after) const;
+  double rub_by_law(const RowPart& part, bool began, const double* before, double* after) const;
+  friction::LocalStates states_of(std::size_t row, std::size_t i) const {
+    return {states_.data() + (row * sites_.nx + i) * each_, each_};
+  }
 
   const Problem& problem_;
   const Sites& sites_;
