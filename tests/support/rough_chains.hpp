@@ -10,7 +10,7 @@
 /// Chains of every kind of end and force, from a rough start, for comparisons to the bit.
 namespace cases {
 
-inline constexpr int kinds = 12;
+inline constexpr int kinds = 15;
 
 /// A law by its name, with the first of its parameters; the others have their default values.
 inline slipfront::friction::Friction law(const char* name, const std::vector<double>& first) {
@@ -22,6 +22,11 @@ inline slipfront::friction::Friction law(const char* name, const std::vector<dou
     return {*known, values};
   }
   throw std::logic_error("no such law");
+}
+
+/// A parameter that varies between `least` and `most`.
+inline slipfront::friction::AlongInterface between(double least, double most) {
+  return {[=](double x, double) { return least + (most - least) * (1 + std::sin(0.7 * x)) / 2; }, least, most};
 }
 
 inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
@@ -79,6 +84,23 @@ inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
   if (kind == 10) {
     p.boundary = {End::absorbing, End::free, false, 0};
     p.friction = law("slip-weakening", {0.05, 0.02, 3});
+  }
+  if (kind == 12) {  // steps shortened where neighbours are added, and not next to ends
+    p.boundary = {End::fixed, End::free, false, 0};
+    p.friction = slipfront::friction::coulomb(0.02);
+  }
+  if (kind == 13) {  // steps whose friction is a series, and others
+    p.boundary = {End::free, End::free, false, 0};
+    p.friction = slipfront::friction::power(0.01, 2);
+  }
+  if (kind == 14) {  // numbers of friction, contacts and pores that vary
+    p.boundary = {End::fixed, End::free, false, 0};
+    p.friction = law("rate-and-state", {0.05, 0.01, 0.015, 3, 0.05, 0, 0, 0.1, 10, 0.02, 30, 0.1})
+                     .with("strength", between(0.03, 0.06))
+                     .with("characteristic_slip", between(2, 4))
+                     .with("contact_ageing", between(0.05, 0.1))
+                     .with("drainage_time", between(20, 30));
+    p.longest = 100;
   }
   return p;
 }
