@@ -268,7 +268,7 @@ def stressed_side():
             path = str(pathlib.Path(folder) / "c.nc")
             compare(friction(c, output__times=f"[{math.pi / 2}]") | stressed(0.179, 1000), (1000, 4000), "-o", path)
             with xarray.open_dataset(path) as data:
-                names = [n.decode() for n in data.name.values]
+                names = list(data.name.values)
                 slip = data.slip_at_origin.values
                 gains[c] = {name: (slip[i, 2] - slip[i, 1], data.slip_velocity_at_origin.values[i, 2]) for i, name in enumerate(names)}
     say("The table gives the slip at x = 0 between t = pi / 2 and 2 pi, in b / (2 pi), for Sigma- = 0.855 and Sigma+ = 0.179.")

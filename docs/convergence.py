@@ -61,13 +61,13 @@ def errors_by_cells(left):
 
 
 def errors_by_cost(right):
-    """The schemes that were weighed, by error against time."""
+    """The schemes that we compared, by error against time."""
     text = subprocess.run([SCHEMES, "--csv"], capture_output=True, check=True, text=True).stdout
     rows = list(csv.DictReader(io.StringIO(text)))
     for name, marker in zip(dict.fromkeys(r["scheme"] for r in rows), "osD^"):
         mine = [r for r in rows if r["scheme"] == name]
         right.loglog([float(r["ms"]) for r in mine], [float(r["error"]) for r in mine], marker=marker, label=name)
-    right.set(xlabel="time of one run, ms (one core)", ylabel="relative error of the slip at x = 0", title="Schemes weighed: step, C = 0.5")
+    right.set(xlabel="time of one run, ms (one core)", ylabel="relative error of the slip at x = 0", title="Schemes compared: step, C = 0.5")
     right.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2))
 
 

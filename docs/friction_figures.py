@@ -112,7 +112,7 @@ def fronts():
         axis.plot(slip, -seen / free, marker=marker, color=line.get_color(), linestyle="--", markerfacecolor="white", label=f"{law}: seen at 0.001 of the largest W")
         for s, f, o in points[::4]:
             print(f"{law}: slip {s:.3f} of the frictionless slip, front first felt at {-f / free:.3f} |V-| t, seen at {-o / free:.3f} |V-| t")
-    axis.set(xlabel="slip at x = 0 over that without friction", ylabel="place of the fast front over $|V_-| t$", ylim=(0, 1.05))
+    axis.set(xlabel="slip at x = 0 over that without friction", ylabel="position of the fast front over $|V_-| t$", ylim=(0, 1.05))
     axis.legend(fontsize="small")
     figure.savefig(HERE / "friction-fronts.png")
 
@@ -151,7 +151,7 @@ def contacts():
         right.plot(data["x"], data["slip"].isel(time=-1), color=colour, label=name)
         scalars = {key: float(data[key][-1]) for key in ("slip_at_origin", "peak_slip_velocity", "leading_front", "energy_contacts")}
         print(f"{name}: " + ", ".join(f"{key} {value:.4g}" for key, value in scalars.items()) + f", budget {data.attrs.get('energy_drift', float('nan'))}")
-    right.set(xlabel="x, b / A", ylabel="slip at $t = 2\\pi$, b / (2π)", title="A step of stress that lets go", xlim=(-3.5, 2.5))
+    right.set(xlabel="x, b / A", ylabel="slip at $t = 2\\pi$, b / (2π)", title="A step of stress that is released", xlim=(-3.5, 2.5))
     right.legend(fontsize="small")
     figure.savefig(HERE / "friction-contacts.png")
 

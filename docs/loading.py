@@ -64,7 +64,7 @@ def cycles(folder):
     top.plot(times / 1e6, 1e3 * STIFFNESS * (VELOCITY * times - slip))
     top.set(ylabel="load, $10^{-3}$ F", title="Load: force of the springs, mean over the ring")
     rate = np.diff(whole["slip"].values, axis=0) / np.diff(times)[:, None]
-    middle.semilogy(times[1:] / 1e6, np.maximum(rate.max(axis=1), 1e-9) / VELOCITY, label="fastest place")
+    middle.semilogy(times[1:] / 1e6, np.maximum(rate.max(axis=1), 1e-9) / VELOCITY, label="fastest position")
     middle.semilogy(times[1:] / 1e6, np.maximum(rate.mean(axis=1), 1e-9) / VELOCITY, label="mean")
     middle.set(ylabel="slip velocity / velocity of springs", xlabel="time, $10^6$ b / (c A)", title="Slip velocity, mean over 2000 b / (c A)", ylim=(1e-4, None))
     middle.legend()
@@ -205,7 +205,7 @@ def fronts(folder):
         points.append((stress, longest["rupture_velocity"]))
         print(f"fronts: stress {stress}: {points[-1][1]:.4g}, closed form {seen:.4g}, front {front:.4g}", flush=True)
     right.plot(*zip(*points), "o", linestyle="none", color="C0", label="every dislocation, no friction")
-    right.set(xlabel="Σ− = (π σ_p / μ)(τ / σ_N), μ A / π", ylabel="front velocity, c", ylim=(0, 1.05), title="Front into a chain under stress")
+    right.set(xlabel="Σ− = (π σ$_p$ / μ)(τ / σ$_N$), μ A / π", ylabel="front velocity, c", ylim=(0, 1.05), title="Front into a chain under stress")
     right.legend()
     figure.savefig(HERE / "loading-fronts.png")
 

@@ -7,7 +7,7 @@ namespace {
 
 using namespace slipfront;
 
-std::string chain_in_words(const run::Plan& plan, output::Run&) {
+std::string chain_in_words(const run::Plan& plan, const output::Run&) {
   const chain::Problem p = chain::problem_of(plan.chain, plan.share_of_machine);
   const std::string how =
       p.implicit ? fmt::format("by implicit steps of tolerance {:.6g}", p.tolerance)

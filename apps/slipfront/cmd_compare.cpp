@@ -21,25 +21,26 @@ struct CompareArguments : ScenarioArguments {
   std::vector<double> scales;
 };
 
-void describe(const scenario::Scenario& s, const run::Comparison& c, const std::string& output) {
-  record::require_disk_space(record::Output(output, "").finished(), c.need.disk);
-  run::begin_levels(c);
+void describe(const scenario::Scenario& s, const run::Comparison& c, const CompareArguments& a) {
+  record::require_disk_space(record::Output(a.output, "").finished(), c.need.disk);
+  const double seconds = run::expected_seconds(c, a.common.threads);
   std::string text = fmt::format("{}: OK. The comparison would run {}pulse (consistent, paper)",
                                  s.title.empty() ? s.file : s.title, c.exact ? "the closed form, " : "");
   for (const run::Plan& plan : c.plans)
     if (plan.solver == scenario::SolverKind::chain)
       text +=
           fmt::format(", chain at scale {:.6g} ({} sites)", plan.chain.scale, chain::problem_of(plan.chain).grid.sites);
-  put(fitted(text + fmt::format(" over x = {} ... {} to t = {}, {}.", s.in_results(c.schedule.x_edges.front(), "b / A"),
+  put(fitted(text + fmt::format(" over x = {} ... {} to t = {}, {}. It would take {} on this machine.",
+                                s.in_results(c.schedule.x_edges.front(), "b / A"),
                                 s.in_results(c.schedule.x_edges.back(), "b / A"), s.in_results(s.end, "b / (c A)"),
-                                in_words(c.need))));
+                                in_words(c.need), ::in_words(seconds))));
 }
 
 int run_compare(const CompareArguments& a) {
   const scenario::Scenario s = read_scenario_of(a);
   const run::Comparison comparison = run::comparison_of(s, a.scales);
   if (a.check) {
-    describe(s, comparison, a.output);
+    describe(s, comparison, a);
     return exit_done;
   }
   const record::Output output(a.output, "");

@@ -23,7 +23,7 @@ std::string lines_in_words(const scenario::Scenario& s, scenario::SolverKind sol
   return fmt::format("{} x {} cells of dislocation lines", s.plane->loops, s.plane->angles);
 }
 
-std::string plane_in_words(const run::Plan& plan, output::Run&) {
+std::string plane_in_words(const run::Plan& plan, const output::Run&) {
   const scenario::Scenario& s = plan.scenario;
   const plane::Problem& p = s.plane->problem;
   const double ratio = s.plane->wave_speed_ratio;

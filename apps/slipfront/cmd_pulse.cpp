@@ -17,27 +17,13 @@ double two_digits(double value) {
   return std::round(value / last) * last;
 }
 
-/// About how many steps the run takes and how long, from the time of its first steps. Empty where many cells would make
-/// these long. The estimate of errors takes another third. \throws NumericsError if the first steps fail.
-std::string duration_of(const pulse::Problem& problem, output::Run& run) {
-  constexpr int most_cells = 100000;
-  constexpr long enough_steps = 20;
-  constexpr double enough_seconds = 0.2, with_errors = 4.0 / 3;
-  if (problem.cells > most_cells) return {};
-  long steps = 0;
-  const auto begun = Clock::now();
-  run.go([&] { return ++steps == enough_steps || seconds_since(begun) > enough_seconds; });
-  const double expected = run.expected_steps(), each = seconds_since(begun) / static_cast<double>(steps);
-  return fmt::format(", about {:.0f} steps and {:.2g} s", two_digits(expected), with_errors * expected * each);
-}
-
-std::string pulse_in_words(const run::Plan& plan, output::Run& run) {
+std::string pulse_in_words(const run::Plan& plan, const output::Run& run) {
   const scenario::Scenario& s = plan.scenario;
   const pulse::Problem& problem = plan.pulse;
-  return fmt::format("run {} cells over x = {} ... {} to t = {}, {} (closure {}), {}{}", problem.cells,
-                     s.in_results(problem.left, "b / A"), s.in_results(problem.right, "b / A"),
+  return fmt::format("run {} cells over x = {} ... {} to t = {}, {} (closure {}), {}, about {:.0f} steps",
+                     problem.cells, s.in_results(problem.left, "b / A"), s.in_results(problem.right, "b / A"),
                      s.in_results(s.end, "b / (c A)"), parameters_in_words(s.friction), name_of(s.friction.closure()),
-                     in_words(plan.need), duration_of(problem, run));
+                     in_words(plan.need), two_digits(run.expected_steps()));
 }
 
 int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {

@@ -25,10 +25,12 @@ void write_fault_text(const EventArguments& a, FaultResult& result, const std::s
                                           : ends_with(a, ".fsp") ? fsp_text(described, history)
                                                                  : slipfront::record::subfaults_csv(result.source));
   if (!ends_with(a, ".srf") || version == SrfVersion::v2 || !result.event.estimate) return;
-  const double modulus = shear_modulus_of(result.source.segments.front());
+  double potency = 0;
+  for (const auto& segment : result.source.segments)
+    for (const auto& point : segment.points) potency += segment.cell_area() * point.slip;
   result.event.estimate->warnings.push_back(
       "SRF 1.0 holds no shear modulus: its moment is " + slipfront::digits(result.source.moment, 7) +
-      " N m only with that of this model, " + slipfront::digits(modulus, 4) + " Pa in the mean of the first segment");
+      " N m only with that of this model, " + slipfront::digits(result.source.moment / potency, 4) + " Pa in the mean");
 }
 
 }  // namespace
@@ -38,7 +40,8 @@ bool describes_fault(const EventArguments& a) { return writes_source(a) || a.fau
 bool writes_source(const EventArguments& a) { return ends_with(a, ".srf") || ends_with(a, ".fsp"); }
 
 int write_fault(const EventArguments& a, const slipfront::run::CatalogueScenario& scenario) {
-  slipfront::finite_fault::SourceOptions options{.closure = slipfront::friction::closure_named(a.closure)};
+  slipfront::finite_fault::SourceOptions options{.closure = slipfront::friction::closure_named(a.closure),
+                                                 .any_mesh = ends_with(a, ".srf")};
   if (a.damping_number) options.damping_number = *a.damping_number;
   FaultResult result = slipfront::run::fault_source(scenario, options);
   const std::string history = scenario.command_line + (a.fault_grid ? " --fault-grid -o " : " -o ") + a.output;

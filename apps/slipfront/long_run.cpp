@@ -66,7 +66,7 @@ void add_scenario_options(CommandLine& command, ScenarioArguments& a, bool with_
       "--si", a.si, "Results in SI units (default if the scenario has values with units outside of [medium])");
   command.flag("--dimensionless", a.dimensionless, "Results in the units of the model (default otherwise)")
       .excludes(si);
-  command.flag("--check", a.check, "Read and check the scenario, print what would run, and stop");
+  command.flag("--check", a.check, "Read and check the scenario, print what would run and for how long, and stop");
   add_common_options(command, a.common, false);
 }
 
@@ -309,7 +309,32 @@ bool is_shared(scenario::SolverKind solver) {
   return solver == scenario::SolverKind::chain || solver == scenario::SolverKind::plane_direct;
 }
 
+/// How long a run would take, as a sentence.
+std::string duration_in_words(const run::Plan& plan, const run::Options& options, const run::Result& begun) {
+  const run::Duration duration = run::expected_duration(begun, plan, options);
+  std::string machine = " on this machine";
+  if (options.ranks) machine += fmt::format(" with {} processes", options.ranks->size());
+  if (plan.solver != scenario::SolverKind::pulse)
+    machine +=
+        fmt::format(" {} {} thread{}", options.ranks ? "of" : "with", options.threads, options.threads == 1 ? "" : "s");
+  if (std::isnan(duration.seconds))
+    return fmt::format("How long it takes depends on its slip events: 1000 steps take {}{}.",
+                       in_words(1000 * duration.of_a_step), machine);
+  const bool by_events = plan.chain.implicit && !begun.finished();
+  return fmt::format("It would take {}{}{}.", in_words(duration.seconds), machine,
+                     by_events ? " if its slip events remain as frequent" : "");
+}
+
 }  // namespace
+
+std::string in_words(double seconds) {
+  constexpr double minute = 60, hour = 60 * minute, day = 24 * hour;
+  const auto in = [&](double unit, const char* name) { return fmt::format("about {:.2g} {}", seconds / unit, name); };
+  if (seconds < 1) return "less than 1 s";
+  if (seconds < 95) return in(1, "s");
+  if (seconds < 95 * minute) return in(minute, "min");
+  return seconds < 2 * day ? in(hour, "h") : in(day, "days");
+}
 
 std::string parameters_in_words(const friction::Friction& friction) {
   std::string text;
@@ -324,7 +349,7 @@ std::string parameters_in_words(const friction::Friction& friction) {
 }
 
 int plan_and_run(const ScenarioArguments& a, Clock::time_point begun, const std::function<run::Plan()>& make_plan,
-                 const std::function<std::string(const run::Plan&, output::Run&)>& in_words) {
+                 const std::function<std::string(const run::Plan&, const output::Run&)>& in_words) {
   run::Plan plan;
   the_ranks->together([&] { plan = make_plan(); });  // so that an error is reported only once
   const scenario::Scenario& s = plan.scenario;
@@ -342,9 +367,10 @@ int plan_and_run(const ScenarioArguments& a, Clock::time_point begun, const std:
   const bool first = the_ranks->rank() == 0;
   if (a.check) {
     const run::Result start = run::begin(plan, options);
+    const std::string would = in_words(plan, *start.run), duration = duration_in_words(plan, options, start);
     if (first)
-      put(fitted(fmt::format("{}: OK. This scenario would {}.", s.title.empty() ? s.file : s.title,
-                             in_words(plan, *start.run))));
+      put(fitted(
+          fmt::format("{}: OK. This scenario would {}. {}", s.title.empty() ? s.file : s.title, would, duration)));
     return exit_done;
   }
   run::Result result = with_progress(a, plan, options);

@@ -38,11 +38,14 @@ slipfront::scenario::Scenario prepared(slipfront::scenario::Scenario scenario, c
 /// The words of a progress line, with times in the unit of the results.
 ProgressWords progress_words(const slipfront::scenario::Scenario& scenario);
 
+/// A duration in words: "about 40 s".
+std::string in_words(double seconds);
+
 /// The law of friction with its parameters: "slip-weakening friction with strength = 0.08, residual = 0.02".
 std::string parameters_in_words(const slipfront::friction::Friction& friction);
 /// Plans a run, and carries it out or, with --check, prints `in_words`: what the scenario "would ...". The processes of
 /// mpirun share the run if its solver follows every dislocation. `begun` is the time when the command began. Returns
 /// the exit code.
-int plan_and_run(const ScenarioArguments& arguments, Clock::time_point begun,
-                 const std::function<slipfront::run::Plan()>& make_plan,
-                 const std::function<std::string(const slipfront::run::Plan&, slipfront::output::Run&)>& in_words);
+int plan_and_run(
+    const ScenarioArguments& arguments, Clock::time_point begun, const std::function<slipfront::run::Plan()>& make_plan,
+    const std::function<std::string(const slipfront::run::Plan&, const slipfront::output::Run&)>& in_words);

@@ -12,6 +12,7 @@
 /// The progress line of long computations.
 
 using slipfront::Clock;
+using slipfront::Pace;
 using slipfront::seconds_since;
 
 /// Words shown in the progress line.
@@ -33,8 +34,7 @@ class Progress {
         end_(end),
         on_(wanted),
         on_terminal_(isatty(STDERR_FILENO) != 0),
-        start_(Clock::now()),
-        shown_(start_) {}
+        shown_(Clock::now()) {}
   ~Progress() {
     if (drawn_ && on_terminal_) std::fputs("\r\x1b[K", stderr);
   }
@@ -58,24 +58,22 @@ class Progress {
   }
   void from(double time, long steps) {
     first_steps_ = steps;
-    first_time_ = time;
+    pace_ = Pace(time);
   }
 
  private:
   std::string line(double time, long steps) const {
-    const double share = time / end_, elapsed = seconds_since(start_);
-    const double gained = (time - first_time_) / end_;
-    const double left = gained > 0 ? elapsed * (1 - share) / gained : 0;
-    return fmt::format("{:5.1f} %  {}{:.{}g} of {:.{}g}{}  {:.0f} {}/s  {:.0f} s left", 100 * share, words_.before,
-                       words_.unit * time, words_.digits, words_.unit * end_, words_.digits, words_.name,
-                       static_cast<double>(steps - first_steps_) / elapsed, words_.steps, left);
+    return fmt::format("{:5.1f} %  {}{:.{}g} of {:.{}g}{}  {:.0f} {}/s  {:.0f} s left", 100 * time / end_,
+                       words_.before, words_.unit * time, words_.digits, words_.unit * end_, words_.digits, words_.name,
+                       static_cast<double>(steps - first_steps_) / pace_.seconds(), words_.steps,
+                       pace_.seconds_left(time, end_));
   }
 
   std::string label_;  ///< name of the current run, if a command has several
   ProgressWords words_;
   double end_;
   bool on_, on_terminal_, drawn_ = false;
-  Clock::time_point start_, shown_;
-  double first_time_ = 0;
+  Clock::time_point shown_;
+  Pace pace_{0};
   long first_steps_ = 0;
 };

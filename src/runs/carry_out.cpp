@@ -1,8 +1,10 @@
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "math/constants.hpp"
 #include "math/digits.hpp"
 #include "runs/run.hpp"
 #include "slipfront/error.hpp"
@@ -108,6 +110,33 @@ bool go(const Result& result, const Options& options, double bytes) {
 }
 
 }  // namespace
+
+Duration expected_duration(const Result& begun, const Plan& plan, const Options& options, double most) {
+  output::Run& run = *begun.run;
+  const Clock::time_point start = Clock::now();
+  const double end = plan.times().back(), first_time = run.time();
+  std::optional<Pace> of_time, of_steps;  // after the results at the start and the first steps, which both take longer
+  bool reached = false;
+  try {
+    reached = run.go([&] {
+      const bool enough = of_time && seconds_since(start) > most;
+      if (!of_time) of_time.emplace(run.time()), of_steps.emplace(static_cast<double>(run.steps()));
+      return options.ranks ? options.ranks->any(enough) : enough;
+    });
+  } catch (const NumericsError& error) {
+    throw NumericsError(scenario::in_results(error.what(), begun.metadata.units));
+  }
+  const double steps = static_cast<double>(run.steps()), taken = seconds_since(start);
+  double left = reached ? 0 : of_time->seconds_left(run.time(), end);
+  // The first steps of fine cells and of implicit chains are much shorter than most.
+  constexpr double few = 0.01;
+  if (!reached && run.time() - first_time < few * (end - first_time)) {
+    if (run.expected_steps() > steps) left = of_steps->seconds_left(steps, run.expected_steps());
+    if (plan.chain.implicit) left = none;
+  }
+  return {.seconds = seconds_since(options.begun) + left + begun.cost_of_errors * (taken + left),
+          .of_a_step = reached ? taken / steps : of_steps->seconds_each(steps)};
+}
 
 Result carry_out(const Plan& plan, const Options& options) {
   Result result = begin(plan, options);

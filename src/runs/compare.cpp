@@ -102,6 +102,17 @@ void begin_levels(const Comparison& c) {
   for (const Plan& plan : c.plans) begin(plan, {});
 }
 
+double expected_seconds(const Comparison& c, int threads) {
+  double seconds = 0;
+  for (const Plan& plan : c.plans) {
+    const Options options{.threads = threads};
+    Result level = begin(plan, options);
+    level.cost_of_errors = 0;  // a comparison has none
+    seconds += expected_duration(level, plan, options, 0.5 / static_cast<double>(c.plans.size())).seconds;
+  }
+  return seconds;
+}
+
 std::vector<record::Array> arrays_of(const Comparison& c, const record::RunMetadata& metadata,
                                      const std::vector<ComparedModel>& levels) {
   return record::arrays_of(c.schedule, metadata.variables, levels_of(levels));

@@ -46,6 +46,10 @@ Comparison comparison_of(const scenario::Scenario& scenario, std::vector<double>
 /// Begins each level and takes no step, to find what a run refuses at its start. \throws InputError like a run.
 void begin_levels(const Comparison& comparison);
 
+/// Begins each level, and returns about how many seconds all of them take (expected_seconds of a run). \throws
+/// InputError, NumericsError like a run.
+double expected_seconds(const Comparison& comparison, int threads);
+
 /// The variables of the file of a comparison. They refer to the levels.
 std::vector<record::Array> arrays_of(const Comparison& comparison, const record::RunMetadata& metadata,
                                      const std::vector<ComparedModel>& levels);

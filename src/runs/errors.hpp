@@ -10,6 +10,9 @@
 
 namespace slipfront::run {
 
+/// The time of the coarser runs, as parts of the time of a pulse or of a run on a plane.
+constexpr double cost_of_pulse_errors = 1.0 / 3, cost_of_plane_errors = 1.0 / 4;
+
 /// Sets the error of each row in the summary of a finished run, relative to infinitely many cells. Returns a warning
 /// for each row that the cells do not resolve. For this it makes runs with half and a quarter of
 /// the cells and with coarser steps, which together take a third of the time.

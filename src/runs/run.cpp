@@ -105,6 +105,7 @@ Result begin_pulse(const Plan& plan, const Options& options) {
   result.add_errors = [&run, &plan](std::vector<Row>& summary, const std::function<bool()>& interrupted) {
     return add_pulse_errors(run, summary, plan, interrupted);
   };
+  result.cost_of_errors = cost_of_pulse_errors;
   return result;
 }
 
@@ -130,12 +131,14 @@ Result begin_plane(const Plan& plan, const Options& options) {
       for (Row& row : compare_with_model(*plan.model, plan.scenario, run)) rows.push_back(std::move(row));
       return rows;
     };
-  if (!options.ranks && !plan.model)  // processes that share a run do not share coarser ones
+  if (!options.ranks && !plan.model) {  // processes that share a run do not share coarser ones
+    result.cost_of_errors = cost_of_plane_errors;
     result.add_errors = [&plan, threads = options.threads](std::vector<Row>& summary,
                                                            const std::function<bool()>& interrupted) {
       add_plane_errors(summary, plan, interrupted, threads);
       return std::vector<std::string>{};
     };
+  }
   return result;
 }
 

@@ -99,6 +99,7 @@ struct Result {
   /// are none.
   std::function<std::vector<std::string>(std::vector<Row>& summary, const std::function<bool()>& interrupted)>
       add_errors = {};
+  double cost_of_errors = 0;  ///< about how long `add_errors` takes, as a part of the time of the run
 
   bool finished() const { return run->finished(); }
 };
@@ -106,6 +107,16 @@ struct Result {
 /// Begins a planned run, or resumes it, and takes no step. It refuses all that a run refuses at its start. \throws
 /// InputError, NumericsError.
 Result begin(const Plan& plan, const Options& options);
+
+/// About how long a run takes.
+struct Duration {
+  double seconds;    ///< from Options::begun to the end, with the errors of the results; NaN if it is not known
+  double of_a_step;  ///< seconds of each of the first steps
+};
+/// (all ranks) Advances a run, which must not have taken a step since `begin`, for `most` seconds or a little longer.
+/// It writes nothing. If the run has not ended by then, we extrapolate. The number of implicit steps depends on slip
+/// events, so it is known only if the first ones have come some way. \throws NumericsError if the run fails.
+Duration expected_duration(const Result& begun, const Plan& plan, const Options& options, double most = 0.5);
 
 /// Continues a run until its end, or until `options.after_step` returns true. It writes the file at the start, so that
 /// a bad path or a full disk fails before the work. It writes again from time to time, and when the run stops. An

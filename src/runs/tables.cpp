@@ -17,12 +17,14 @@ bool is_fault_model(const std::string& path) try {
 }
 
 std::vector<std::vector<double>> read_table(const std::string& path, const std::vector<std::string>& columns) {
-  if (!is_fault_model(path)) return record::read_table(path, columns);
+  const std::string text = record::read_regular(path);
+  const bool is_model = path.ends_with(".fsp") || (!path.ends_with(".nc") && catalogue::is_fault_model(text));
+  if (!is_model) return record::table_of(text, path, columns);
   if (columns != std::vector<std::string>{"x", "y", "slip"})
     throw InputError({.file = path,
                       .problem = "a finite-fault model has no such columns",
                       .allowed = "initial.profile = \"grid\" on a plane"});
-  const catalogue::FaultModel model = catalogue::read_fault_model(record::read_text(path), path);
+  const catalogue::FaultModel model = catalogue::read_fault_model(text, path);
   const finite_fault::OnPlane fault =
       finite_fault::on_plane(finite_fault::finite_source(model, medium::defaults_of({}), {}));
   return finite_fault::slip_to_come(fault, margin_of(fault));

@@ -37,4 +37,19 @@ inline double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// The pace of a computation since a moment at which a number that grows steadily, such as a time, was `from`.
+class Pace {
+ public:
+  explicit Pace(double from) : from_(from) {}
+  double seconds() const { return seconds_since(start_); }
+  /// Seconds until the number is `end` if it is `now`, at the pace so far; 0 if it has not grown.
+  double seconds_left(double now, double end) const { return now > from_ ? seconds_each(now) * (end - now) : 0; }
+  /// Seconds in which the number has grown by 1.
+  double seconds_each(double now) const { return seconds() / (now - from_); }
+
+ private:
+  double from_;
+  Clock::time_point start_ = Clock::now();
+};
+
 }  // namespace slipfront

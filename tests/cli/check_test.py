@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Tests that --check refuses what a run refuses at its start, in the same words."""
 
+import json
 import os
+import re
 import unittest
 
 from support import SOURCE, CommandLine, run
@@ -42,6 +44,34 @@ class Check(CommandLine):
 
     def test_events_without_loading(self):
         self.assertIn("output.per_event", self.same("chain", STEP, "--set", "output.per_event=5"))
+
+    def test_the_time_of_a_run(self):
+        """No test knows how long a run takes, but 2.5e11 steps take days on every machine."""
+        plane = os.path.join(SOURCE, "cases/plane-friction.toml")
+        long = ["chain", STEP, "--set", "time.end=1e9", "domain.left=-10", "domain.right=10", "chain.scale=100"]
+        for words in (["pulse", STEP], ["chain", STEP], long, ["plane", plane], ["plane", plane, "--direct"], ["compare", STEP, "--scale", "20"]):
+            text = self.ok(*words, "--check", "--wide", "--threads", "1")
+            _, number, unit, machine = re.search(r"\. It would take (less than 1 s|about (\S+) (s|min|h|days)) on this machine(.*)\.\n$", text).groups()
+            self.assertGreater(float(number or 1), 0)
+            self.assertEqual(unit == "days", words == long)
+            self.assertEqual(machine, " with 1 thread" if words[0] in ("chain", "plane") else "")
+
+    def test_the_time_of_slip_events(self):
+        """The ring of the case has its first event long after half a second."""
+        text = self.ok("chain", STICK_SLIP, "--check", "--wide")
+        self.assertRegex(text, r"How long it takes depends on its slip events: 1000 steps take .* on this machine with \d+ threads?\.\n$")
+
+    def test_a_run_after_its_check_is_the_same(self):
+        settings = STEP, "--set", "output.every=0.5", "-o", self.file("same.nc", "")
+        for command in ("pulse", "chain"):
+            summaries = []
+            for _ in range(2):
+                summaries.append(json.loads(self.ok(command, *settings, "--json")))
+                self.ok(command, *settings, "--check")
+            for summary in summaries:
+                for clock in ("solve_seconds", "wall_seconds", "site_updates_per_second"):
+                    summary.pop(clock, None)
+            self.assertEqual(*summaries)
 
     def test_a_good_scenario_is_not_run(self):
         file = self.file("new.nc", "")

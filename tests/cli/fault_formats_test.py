@@ -1,6 +1,7 @@
 """Finite-fault models in the layout of each producer: `slipfront event FILE` reads them as one
 model."""
 
+import dataclasses
 import json
 import math
 import os
@@ -126,6 +127,27 @@ def srf(version, windows=False):
         else:
             text += f"{RAKE} {100 * f.slip:.6f} 3 0 0 0 0\n{rates}\n"
     return text
+
+
+@dataclasses.dataclass
+class SrfPoint:
+    strike: float  # degrees
+    dip: float
+    moment: float  # N m
+
+
+def points_of_srf(path):
+    """The points of a file of SRF 2.0 without planes."""
+    with open(path, encoding="utf-8") as file:
+        words = " ".join(line for line in file if not line.startswith("#")).split()
+    if words[:2] != ["2.0", "POINTS"]:
+        raise AssertionError(words[:4])
+    points, at = [], 3
+    for _ in range(int(words[2])):
+        strike, dip, area, _, _, speed, density, _, slip, rates = map(float, words[at + 3 : at + 13])
+        points.append(SrfPoint(strike, dip, 1e-7 * density * speed**2 * area * slip))
+        at += 17 + int(rates)
+    return points
 
 
 def rupt(windows=1):
@@ -274,17 +296,28 @@ class FaultFormats(CommandLine):
                 says=[":2: " + says],
             )
 
-    def test_a_mesh_has_an_event_but_no_grid(self):
+    def test_a_mesh_has_an_event_and_points_but_no_grid(self):
         rows = rupt().split("\n")
+        moment = 0
         for i, row in enumerate(rows[1:-1], 1):
             cells = row.split("\t")
-            cells[4] = str(STRIKE + 5 * math.sin(i))
+            cells[4], cells[5] = str(STRIKE + 5 * math.sin(i)), str(DIP + 3 * math.cos(i))
+            cells[10] = str(1000 * LENGTH * (1 + 0.3 * math.sin(3 * i)))
+            moment += math.hypot(float(cells[8]), float(cells[9])) * float(cells[10]) * float(cells[11]) * float(cells[13])
             rows[i] = "\t".join(cells)
         path = self.write("mesh.rupt", "\n".join(rows))
-        event = json.loads(self.ok("event", path, "--json", "--samples", "0"))["events"][0]
-        self.assertAlmostEqual(event["rupture_velocity_m_s"], 1000 * SPEED, delta=5)
-        out = self.path("out.srf")
-        self.refused(2, "event", path, "-o", out, says=["the subfaults form no grid"])
+        for model, out in ((path, "one.srf"), (self.path("one.srf"), "two.srf")):
+            event = json.loads(self.ok("event", model, "--json", "--samples", "0"))["events"][0]
+            self.assertAlmostEqual(event["rupture_velocity_m_s"], 1000 * SPEED, delta=5)
+            self.ok("event", model, "-o", self.path(out), "--samples", "0")
+            points = points_of_srf(self.path(out))
+            self.assertEqual(len(points), len(rows) - 2)
+            self.assertAlmostEqual(sum(p.moment for p in points) / moment, 1, delta=1e-6)
+            for i, point in enumerate(points, 1):
+                self.assertAlmostEqual(point.strike, STRIKE + 5 * math.sin(i), 5)
+                self.assertAlmostEqual(point.dip, DIP + 3 * math.cos(i), 5)
+            for options in (["-o", self.path("a.fsp")], ["--fault-grid", "-o", self.path("a.nc")]):
+                self.refused(2, "event", model, *options, says=["the subfaults form no grid", "event -o OUT.srf needs none"])
 
     def test_other_commands_name_the_model(self):
         path = self.write("a.param", param())

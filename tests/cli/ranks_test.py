@@ -97,6 +97,10 @@ class Ranks(CommandLine):
             self.assertEqual(refused.returncode, 2, refused.stderr)
             self.assertEqual(refused.stderr.count("slipfront: "), 1, refused.stderr)
 
+    def test_a_check_states_the_time_of_all_processes(self):
+        done = mpirun(2, "chain", os.path.join(SOURCE, "cases/step.toml"), "--set", "chain.scale=100", "--check", "--wide", "--threads", "1")
+        self.assertRegex(done.stdout, r"It would take .* on this machine with 2 processes of 1 thread\.\n$")
+
     def test_only_the_first_rank_ends_with_a_code(self):
         # mpirun kills all ranks when one ends with a code, and the first one would report that.
         refused = self.file("refused.toml", HELD + "[medium]\nspeed = -1\n")

@@ -25,16 +25,16 @@ struct RockLayer {
 
 /// A subfault. Positions are those of its centre. A value is absent if its column is missing or holds a placeholder.
 struct FaultPatch {
-  double longitude = 0, latitude = 0;        ///< degrees
-  double east = 0, north = 0, depth = 0;     ///< m, from the epicentre at the surface; depth is positive downwards
-  double slip = 0;                           ///< m, as written
-  std::optional<double> rake = {};           ///< degrees
-  std::optional<double> rise_time = {};      ///< s
-  std::optional<double> rupture_time = {};   ///< s, as written; it may be negative
-  std::optional<double> area = {};           ///< m^2; by default that of all subfaults of the segment
-  std::optional<double> shear_modulus = {};  ///< Pa; by default that of `FaultModel::rock`
-  std::optional<double> density = {};        ///< kg/m^3
-  std::size_t row = 0;                       ///< index in Observation::subfaults
+  double longitude = 0, latitude = 0;     ///< degrees
+  double east = 0, north = 0, depth = 0;  ///< m, from the epicentre at the surface; depth is positive downwards
+  double slip = 0;                        ///< m, as written
+  std::optional<double> strike = {}, dip = {}, rake = {};  ///< degrees; strike and dip by default of the segment
+  std::optional<double> rise_time = {};                    ///< s
+  std::optional<double> rupture_time = {};                 ///< s, as written; it may be negative
+  std::optional<double> area = {};                         ///< m^2; by default that of all subfaults of the segment
+  std::optional<double> shear_modulus = {};                ///< Pa; by default that of `FaultModel::rock`
+  std::optional<double> density = {};                      ///< kg/m^3
+  std::size_t row = 0;                                     ///< index in Observation::subfaults
 };
 
 /// A planar segment.
@@ -42,7 +42,7 @@ struct FaultSegment {
   std::size_t line = 0;               ///< line of its column names
   std::optional<double> strike, dip;  ///< degrees
   /// Size of a subfault in m. Their product is the area that `Observation::slip` uses.
-  std::optional<double> cell_length, cell_width;
+  std::optional<double> cell_length = {}, cell_width = {};
   /// Numbers of subfaults. They are 0 if the subfaults do not form rows of equal depth and equal length.
   std::size_t along_strike = 0, down_dip = 0;
   /// By row, from the top down, and in each row in the direction of strike. In the order of the file if there is no

@@ -76,10 +76,11 @@ Averages Run::averages() const {
 }
 
 bool Run::advance_to(double time, const std::function<bool()>& interrupted) {
-  // Work for a tenth of a second or so. The steps at which a run stops change no bits.
+  // Work for a tenth of a second or so, at first for less. The steps at which a run stops change no bits.
   const auto sites = static_cast<double>(chain_->problem().grid.sites);
-  const long most = 32 * std::max(1L, std::lround(2e8 / 32 / sites));
-  while (!chain_->reached(time)) {
+  const long longest = 32 * std::max(1L, std::lround(2e8 / 32 / sites));
+  for (long most = std::clamp(std::lround(1e7 / sites), 1L, 32L); !chain_->reached(time);
+       most = std::min(2 * most, longest)) {
     const long before = chain_->steps(), to_sample = observer_->steps_to_sample();
     chain_->advance_to(time, std::min(to_sample, most));
     // Without a constant step each step is a sample. The motion inside a step is none: samples must not depend on the

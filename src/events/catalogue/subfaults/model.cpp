@@ -211,6 +211,8 @@ FaultPatch Assembly::patch_of(const Row& row, std::size_t at) const {
       .north = m_per_degree * (row.latitude - table_.latitude),
       .depth = row.depth,
       .slip = row.slip,
+      .strike = given(row.strike),
+      .dip = given(row.dip),
       .rake = given(row.rake),
       .rise_time = row.rise_time > 0 && row.rise_time < longest_time ? given(row.rise_time) : std::nullopt,
       .rupture_time = row.rupture_time > -90 ? given(row.rupture_time) : std::nullopt,

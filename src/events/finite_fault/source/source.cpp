@@ -63,9 +63,37 @@ ChosenVelocity chosen_velocity(const FaultModel& model, double s_wave_speed) {
   return {0.8 * s_wave_speed, "0.8 of the S speed at the hypocentre, because the file has no avVr"};
 }
 
+/// The model with a segment for each subfault of segments without a grid.
+FaultModel with_mesh_divided(FaultModel model) {
+  std::vector<catalogue::FaultSegment> segments;
+  for (catalogue::FaultSegment& from : model.segments) {
+    if (from.down_dip > 0) {
+      segments.push_back(std::move(from));
+      continue;
+    }
+    for (const catalogue::FaultPatch& patch : from.patches) {
+      catalogue::FaultSegment one{.line = from.line, .strike = patch.strike, .dip = patch.dip, .patches = {patch}};
+      if (patch.area) one.cell_length = one.cell_width = std::sqrt(*patch.area);
+      one.along_strike = one.down_dip = 1;
+      segments.push_back(std::move(one));
+    }
+  }
+  model.segments = std::move(segments);
+  return model;
+}
+
+bool has_mesh(const FaultModel& model) {
+  return std::any_of(model.segments.begin(), model.segments.end(), [](const auto& s) { return s.down_dip == 0; });
+}
+
 }  // namespace
 
 FiniteSource finite_source(const FaultModel& model, const medium::Defaults& defaults, const SourceOptions& options) {
+  if (options.any_mesh && has_mesh(model)) {
+    FiniteSource mesh = finite_source(with_mesh_divided(model), defaults, options);
+    mesh.is_mesh = true;
+    return mesh;
+  }
   source::Builder builder(model, defaults);
   FiniteSource out = builder.planes();
   out.damping_number = options.damping_number;
@@ -321,7 +349,8 @@ SourceSegment Builder::plane(const FaultSegment& from) const {
     refuse(from.line, "STRIKE", "no strike and dip for this segment",
            "STRIKE and DIP of the segment, or STRK and DIP of Mech");
   if (from.down_dip == 0)
-    refuse(from.line, "subfault", "the subfaults form no grid", "rows of equal depth with equally many subfaults");
+    refuse(from.line, "subfault", "the subfaults form no grid",
+           "rows of equal depth with equally many subfaults; event -o OUT.srf needs none");
   if (!from.cell_length || !from.cell_width)
     refuse(from.line, "Dx", "no size of a subfault", "Dx and Dz, or LEN and WID");
   SourceSegment out{.strike = *from.strike,

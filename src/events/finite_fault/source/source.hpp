@@ -50,6 +50,9 @@ struct SourceSegment {
 struct SourceOptions {
   double damping_number = 10;  ///< Gamma at the end of the rise time; 0 means constant slip rate
   friction::Closure closure = friction::Closure::consistent;
+  /// Subfaults that form no grid, such as those of a curved mesh, become segments of one subfault. Otherwise they are
+  /// refused.
+  bool any_mesh = false;
 };
 
 struct FiniteSource {
@@ -61,6 +64,7 @@ struct FiniteSource {
   double time_step;  ///< s, of the slip-rate functions
   double poisson_ratio;
   double moment;                   ///< N m
+  bool is_mesh = false;            ///< there is a segment for each subfault, a square of its area
   std::vector<std::string> notes;  ///< every choice that was made, one line each
 };
 

@@ -224,13 +224,17 @@ void add_point(std::string& text, const FiniteSource& source, const SourceSegmen
 std::string srf_text(const FiniteSource& source, const std::string& history, SrfVersion version) {
   std::string text = (version == SrfVersion::v2 ? "2.0\n" : "1.0\n") + comment(source.name) + comment(history);
   for (const std::string& note : source.notes) text += comment(note);
-  text += "PLANE " + std::to_string(source.segments.size()) + "\n";
-  for (const SourceSegment& segment : source.segments) text += plane_text(segment);
+  if (!source.is_mesh) text += "PLANE " + std::to_string(source.segments.size()) + "\n";
+  std::string points;
+  std::size_t count = 0;
   for (const SourceSegment& segment : source.segments) {
-    text += "POINTS " + std::to_string(segment.points.size()) + "\n";
-    for (const SourcePoint& point : segment.points) add_point(text, source, segment, point, version);
+    if (!source.is_mesh)
+      text += plane_text(segment), points += "POINTS " + std::to_string(segment.points.size()) + "\n";
+    for (const SourcePoint& point : segment.points) add_point(points, source, segment, point, version);
+    count += segment.points.size();
   }
-  return text;
+  if (source.is_mesh) text += "POINTS " + std::to_string(count) + "\n";
+  return text + points;
 }
 
 namespace {

@@ -170,10 +170,14 @@ Table read_any_netcdf(std::string_view image, const Names& names, const std::str
 }  // namespace
 
 std::vector<std::vector<double>> read_table(const std::string& path, const std::vector<std::string>& columns) {
+  return table_of(read_regular(path), path, columns);
+}
+
+std::vector<std::vector<double>> table_of(std::string_view content, const std::string& path,
+                                          const std::vector<std::string>& columns) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".csv" && ending != ".nc")
     throw InputError({.file = path, .problem = "unknown ending '" + ending + "'", .allowed = ".csv or .nc"});
-  const std::string content = read_regular(path);
   return ending == ".csv" ? read_csv(content, columns, path)
                           : read_any_netcdf(without_broken_seal(content, path), columns, path);
 }

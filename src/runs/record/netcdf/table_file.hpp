@@ -3,6 +3,7 @@
 /// Tables from separate files: initial profiles and friction laws.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace slipfront::record {
@@ -14,5 +15,9 @@ namespace slipfront::record {
 /// and the signs. \throws FileError if the file cannot be read, InputError (file, line, key, value, allowed) if its
 /// content is wrong.
 std::vector<std::vector<double>> read_table(const std::string& path, const std::vector<std::string>& columns);
+
+/// Like `read_table`, for a file that has been read.
+std::vector<std::vector<double>> table_of(std::string_view content, const std::string& path,
+                                          const std::vector<std::string>& columns);
 
 }  // namespace slipfront::record
