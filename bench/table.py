@@ -1,23 +1,23 @@
 #!/usr/bin/env python3
-"""Prints the table of speeds of docs/performance.md, in less than ten minutes on an idle machine.
+"""Prints the tables of docs/performance.md, in less than ten minutes on an idle machine.
 
-    ./run bench                              builds the program, and runs this script
-    bench/table.py [SLIPFRONT] [RUNS]        RUNS of each kind, by default 3
+    ./run bench                         builds the programs, and runs this script
+    bench/table.py [SLIPFRONT] [RUNS]   RUNS of each kind, by default 3
 
 The runs of all kinds take turns, and the least time of each counts: processor time on one thread,
-and the time on the clock with one thread and with two. Limits need `slipfront_bench`
-(CONTRIBUTING.md), and the comparison with LAMMPS needs `lmp` and `chain_run`; without them, the
-table lacks these rows."""
+and the time on the clock with one thread and with two. The comparison with other programs
+follows (peers/ratios.py). Rows are left out where a program is missing."""
 
+import argparse
 import json
 import os
 import pathlib
 import resource
-import shutil
 import subprocess
-import sys
 import tempfile
 import time
+
+from peers.ratios import print_ratios
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 STEP = """[initial]
@@ -55,6 +55,7 @@ LOADED = {
                                             "domain.right=470", "time.end=5e5",
                                             "output.every=1e5"],
 }
+
 SCALES = (30, 300, 3000)  # 900 to 90,000 sites
 
 
@@ -79,7 +80,7 @@ def least_times(commands, runs):
 
 
 def print_rows(title, times):
-    print(f"\n| {title} | processor time, s | first row over it | two threads over one |")
+    print(f"\nWhole runs, least of several; shares of the first row\n\n| {title} | processor time, s | first row over it | two threads over one |")
     print("|---|---|---|---|")
     first = next(iter(times.values()))[0]
     for name, (processor, one, two) in times.items():
@@ -102,15 +103,16 @@ def print_limits(folder):
         print("\nLimits and kernels, one core:", flush=True)
         subprocess.run([bench, "--benchmark_filter=limit|chain_sites/1000000/1|plane_sites",
                         "--benchmark_min_time=0.2"], check=True)
-    if (folder / "chain_run").exists() and shutil.which("lmp"):
-        print("\nLAMMPS, the lattice of Eq. 1, one core:", flush=True)
-        subprocess.run([sys.executable, ROOT / "bench/peers/lammps_chain.py",
-                        folder / "chain_run"], check=True)
+    else:
+        print("\nLimits of the machine are left out: slipfront_bench was not built (Debian package libbenchmark-dev)")
 
 
 def main():
-    program = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/release/bin/slipfront")
-    runs = int(sys.argv[2]) if len(sys.argv) > 2 else 3
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", default=str(ROOT / "build/release/bin/slipfront"))
+    parser.add_argument("runs", nargs="?", type=int, default=3)
+    given = parser.parse_args()
+    program, runs = str(pathlib.Path(given.program).resolve()), given.runs
     model = [line for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
              if line.startswith("model name")]
     print(f"{model[0].partition(': ')[2] if model else 'unknown processor'}, {os.cpu_count()} "
@@ -127,6 +129,7 @@ def main():
                  for name, words in kinds.items()}
         print_rows(title, least_times(cases, runs))
     print_limits(pathlib.Path(program).parent)
+    print_ratios(program)
 
 
 if __name__ == "__main__":
