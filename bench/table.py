@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Prints the tables of docs/performance.md, in less than ten minutes on an idle machine.
 
-    ./run bench                         builds the programs, and runs this script
-    bench/table.py [SLIPFRONT] [RUNS]   RUNS of each kind, by default 3
+    ./run bench [--long]                         builds the programs, and runs this script
+    bench/table.py [SLIPFRONT] [RUNS] [--long]   RUNS of each kind, by default 3
 
 The runs of all kinds take turns, and the least time of each counts: processor time on one thread,
-and the time on the clock with one thread and with two. The comparison with other programs
-follows (peers/ratios.py). Rows are left out where a program is missing."""
+and the time on the clock with one thread and with two. Growth and the comparison with other
+programs follow (growth.py, peers/ratios.py). Rows are left out where a program is missing. --long
+adds a chain of 1e8 sites."""
 
 import argparse
 import json
@@ -17,6 +18,7 @@ import subprocess
 import tempfile
 import time
 
+from growth import print_growth
 from peers.ratios import print_ratios
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -56,8 +58,6 @@ LOADED = {
                                             "output.every=1e5"],
 }
 
-SCALES = (30, 300, 3000)  # 900 to 90,000 sites
-
 
 def measure(command, threads):
     """Processor time and time on the clock of a command, and what it prints."""
@@ -87,16 +87,6 @@ def print_rows(title, times):
         print(f"| {name} | {processor:.2f} | {first / processor:.2f} | {one / two:.2f} |", flush=True)
 
 
-def print_growth(program, scenario, runs):
-    print("\n| sites | G site updates a second, whole run, one thread |\n|---|---|")
-    for scale in SCALES:
-        command = [program, "chain", scenario, "--set", f"chain.scale={scale}"]
-        found = [measure(command, 1) for _ in range(runs)]
-        numbers = found[0][2]
-        updates = numbers["sites"] * numbers["steps"]
-        print(f"| {numbers['sites']} | {updates / min(f[0] for f in found) / 1e9:.2f} |", flush=True)
-
-
 def print_limits(folder):
     bench = folder / "slipfront_bench"
     if bench.exists():
@@ -111,6 +101,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", nargs="?", default=str(ROOT / "build/release/bin/slipfront"))
     parser.add_argument("runs", nargs="?", type=int, default=3)
+    parser.add_argument("--long", action="store_true")
     given = parser.parse_args()
     program, runs = str(pathlib.Path(given.program).resolve()), given.runs
     model = [line for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
@@ -123,7 +114,7 @@ def main():
         forces = {name: [program, "chain", scenario, "--set", "chain.scale=1000", *keys]
                   for name, keys in FORCES.items()}
         print_rows("chain, scale 1000", least_times(forces, runs))
-        print_growth(program, scenario, runs)
+        print_growth(program, scenario, runs, given.long)
     for title, command, kinds in (("plane", "plane", PLANE), ("implicit steps", "chain", LOADED)):
         cases = {name: [program, command, str(ROOT / "cases" / words[0]), *words[1:]]
                  for name, words in kinds.items()}
