@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
                   .contact = {}};
   try {
     ExplicitChain chain(p, StaticTrain([](double) { return 0.8; }, p.grid), {.threads = threads, .ranks = &ranks});
-    const long levels = 32 * std::max(1L, 30000000 / static_cast<long>(sites));
+    const long levels = 32 * std::max(1L, 10000000 / static_cast<long>(sites));
     double best = 0;
     for (int i = 0; i < 7; ++i) {
       const auto start = std::chrono::steady_clock::now();

@@ -1,23 +1,25 @@
 #!/usr/bin/env python3
-"""Prints the table of speeds of docs/performance.md, in less than ten minutes on an idle machine.
+"""Prints the tables of docs/performance.md, in less than ten minutes on an idle machine.
 
-    ./run bench                              builds the program, and runs this script
-    bench/table.py [SLIPFRONT] [RUNS]        RUNS of each kind, by default 3
+    ./run bench [--long]                         builds the programs, and runs this script
+    bench/table.py [SLIPFRONT] [RUNS] [--long]   RUNS of each kind, by default 3
 
 The runs of all kinds take turns, and the least time of each counts: processor time on one thread,
-and the time on the clock with one thread and with two. Limits need `slipfront_bench`
-(CONTRIBUTING.md), and the comparison with LAMMPS needs `lmp` and `chain_run`; without them, the
-table lacks these rows."""
+and the time on the clock with one thread and with two. Growth and the comparison with other
+programs follow (growth.py, peers/ratios.py). Rows are left out where a program is missing. --long
+adds a chain of 1e8 sites."""
 
+import argparse
 import json
 import os
 import pathlib
 import resource
-import shutil
 import subprocess
-import sys
 import tempfile
 import time
+
+from growth import print_growth
+from peers.ratios import print_ratios
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 STEP = """[initial]
@@ -55,7 +57,6 @@ LOADED = {
                                             "domain.right=470", "time.end=5e5",
                                             "output.every=1e5"],
 }
-SCALES = (30, 300, 3000)  # 900 to 90,000 sites
 
 
 def measure(command, threads):
@@ -79,21 +80,11 @@ def least_times(commands, runs):
 
 
 def print_rows(title, times):
-    print(f"\n| {title} | processor time, s | first row over it | two threads over one |")
+    print(f"\nWhole runs, least of several; shares of the first row\n\n| {title} | processor time, s | first row over it | two threads over one |")
     print("|---|---|---|---|")
     first = next(iter(times.values()))[0]
     for name, (processor, one, two) in times.items():
         print(f"| {name} | {processor:.2f} | {first / processor:.2f} | {one / two:.2f} |", flush=True)
-
-
-def print_growth(program, scenario, runs):
-    print("\n| sites | G site updates a second, whole run, one thread |\n|---|---|")
-    for scale in SCALES:
-        command = [program, "chain", scenario, "--set", f"chain.scale={scale}"]
-        found = [measure(command, 1) for _ in range(runs)]
-        numbers = found[0][2]
-        updates = numbers["sites"] * numbers["steps"]
-        print(f"| {numbers['sites']} | {updates / min(f[0] for f in found) / 1e9:.2f} |", flush=True)
 
 
 def print_limits(folder):
@@ -102,15 +93,17 @@ def print_limits(folder):
         print("\nLimits and kernels, one core:", flush=True)
         subprocess.run([bench, "--benchmark_filter=limit|chain_sites/1000000/1|plane_sites",
                         "--benchmark_min_time=0.2"], check=True)
-    if (folder / "chain_run").exists() and shutil.which("lmp"):
-        print("\nLAMMPS, the lattice of Eq. 1, one core:", flush=True)
-        subprocess.run([sys.executable, ROOT / "bench/peers/lammps_chain.py",
-                        folder / "chain_run"], check=True)
+    else:
+        print("\nLimits of the machine are left out: slipfront_bench was not built (Debian package libbenchmark-dev)")
 
 
 def main():
-    program = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/release/bin/slipfront")
-    runs = int(sys.argv[2]) if len(sys.argv) > 2 else 3
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", default=str(ROOT / "build/release/bin/slipfront"))
+    parser.add_argument("runs", nargs="?", type=int, default=3)
+    parser.add_argument("--long", action="store_true")
+    given = parser.parse_args()
+    program, runs = str(pathlib.Path(given.program).resolve()), given.runs
     model = [line for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
              if line.startswith("model name")]
     print(f"{model[0].partition(': ')[2] if model else 'unknown processor'}, {os.cpu_count()} "
@@ -121,12 +114,13 @@ def main():
         forces = {name: [program, "chain", scenario, "--set", "chain.scale=1000", *keys]
                   for name, keys in FORCES.items()}
         print_rows("chain, scale 1000", least_times(forces, runs))
-        print_growth(program, scenario, runs)
+        print_growth(program, scenario, runs, given.long)
     for title, command, kinds in (("plane", "plane", PLANE), ("implicit steps", "chain", LOADED)):
         cases = {name: [program, command, str(ROOT / "cases" / words[0]), *words[1:]]
                  for name, words in kinds.items()}
         print_rows(title, least_times(cases, runs))
     print_limits(pathlib.Path(program).parent)
+    print_ratios(program)
 
 
 if __name__ == "__main__":

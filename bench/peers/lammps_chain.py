@@ -115,9 +115,9 @@ def difference(a, b):
     return max(map(lambda p, q: abs(p - q), a, b))
 
 
-def main():
-    chain_run = sys.argv[1] if len(sys.argv) > 1 else "build/release/bin/chain_run"
-    lmp = sys.argv[2] if len(sys.argv) > 2 else "lmp"
+def main(chain_run="build/release/bin/chain_run", lmp="lmp"):
+    """Returns, for each number of sites, the rate of slipfront over those of LAMMPS and of the plain loop."""
+    ratios = []
     with tempfile.TemporaryDirectory() as folder:
         for sites, steps in SIZES:
             u, v = start(sites)
@@ -139,7 +139,9 @@ def main():
             print(f"{'plain leapfrog':<42}{difference(chain, plain):>10.1e}{'':>10}"
                   f"{sites * steps / plain_seconds / 1e6:>11.1f}")
             print(f"{version}: slipfront is {rate / best:.0f} times as fast as its fastest variant\n", flush=True)
+            ratios.append((rate / best, rate * plain_seconds / sites / steps))
+    return ratios
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])
