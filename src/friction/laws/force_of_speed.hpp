@@ -14,27 +14,6 @@
 
 namespace slipfront::friction {
 
-/// Positions in one pass of the loops over many positions, whose values then fit into the nearest cache.
-constexpr std::size_t part_size = 64;
-
-/// Calls `task` with the first position of each part and its size, at most `most`.
-template <std::size_t most = part_size, class Task>
-void in_parts(std::size_t size, const Task& task) {
-  for (std::size_t begin = 0; begin < size; begin += most) task(begin, std::min(most, size - begin));
-}
-
-/// Calls `task` with the first position of each part, its size, and the first state variable there, which it changes.
-template <class Task>
-void change_in_parts(std::size_t size, EvolvingStates states, const Task& task) {
-  double copies[part_size];
-  in_parts(size, [&](std::size_t begin, std::size_t some) {
-    const EvolvingStates part = states.from(begin);
-    double* const values = part.column(0, some, copies);
-    task(begin, some, values);
-    for (std::size_t i = 0; i < some && values == copies; ++i) part(i, 0) = values[i];
-  });
-}
-
 /// The first `count` parameters at a part of the positions, for a law with parameters that vary.
 template <std::size_t count>
 class ParametersOfPart {

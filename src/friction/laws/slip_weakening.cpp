@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "friction/laws/force_of_speed.hpp"
+#include "friction/state/contacts.hpp"
 #include "math/simd/elementary.hpp"
 #include "math/simd/vector_code.hpp"
 #include "slipfront/friction/law.hpp"

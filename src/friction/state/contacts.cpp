@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "friction/laws/force_of_speed.hpp"
 #include "math/simd/elementary.hpp"
 #include "math/simd/vector_code.hpp"
 

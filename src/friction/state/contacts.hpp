@@ -6,9 +6,22 @@
 #include <cstddef>
 #include <vector>
 
+#include "math/simd/vector_code.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {
+
+/// Calls `task` with the first position of each part, its size, and the first state variable there, which it changes.
+template <class Task>
+void change_in_parts(std::size_t size, EvolvingStates states, const Task& task) {
+  double copies[part_size];
+  in_parts(size, [&](std::size_t begin, std::size_t some) {
+    const EvolvingStates part = states.from(begin);
+    double* const values = part.column(0, some, copies);
+    task(begin, some, values);
+    for (std::size_t i = 0; i < some && values == copies; ++i) part(i, 0) = values[i];
+  });
+}
 
 /// The state theta of rate-and-state friction, the age of a position's contacts. Exact at a constant velocity.
 ///     ageing: theta_t = 1 - |w| theta / D_c            slip: theta_t = -x ln x, x = |w| theta / D_c

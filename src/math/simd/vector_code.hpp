@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -19,6 +20,15 @@
 
 /// Sums, products and quotients of arrays as vector code.
 namespace slipfront {
+
+/// How many numbers one pass of a loop takes, so that all that it has of them fits into the nearest cache.
+constexpr std::size_t part_size = 64;
+
+/// Calls `task` with the first number of each part and its size, at most `most`.
+template <std::size_t most = part_size, class Task>
+void in_parts(std::size_t size, const Task& task) {
+  for (std::size_t begin = 0; begin < size; begin += most) task(begin, std::min(most, size - begin));
+}
 
 void multiply(std::size_t size, const double* by, double* values);
 void divide(std::size_t size, const double* values, const double* by, double* quotients);
