@@ -42,7 +42,7 @@ struct FaultSegment {
   std::size_t line = 0;               ///< line of its column names
   std::optional<double> strike, dip;  ///< degrees
   /// Size of a subfault in m. Their product is the area that `Observation::slip` uses.
-  std::optional<double> cell_length = {}, cell_width = {};
+  std::optional<double> cell_length, cell_width;
   /// Numbers of subfaults. They are 0 if the subfaults do not form rows of equal depth and equal length.
   std::size_t along_strike = 0, down_dip = 0;
   /// By row, from the top down, and in each row in the direction of strike. In the order of the file if there is no

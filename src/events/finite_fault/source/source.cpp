@@ -72,10 +72,14 @@ FaultModel with_mesh_divided(FaultModel model) {
       continue;
     }
     for (const catalogue::FaultPatch& patch : from.patches) {
-      catalogue::FaultSegment one{.line = from.line, .strike = patch.strike, .dip = patch.dip, .patches = {patch}};
+      catalogue::FaultSegment& one = segments.emplace_back();
+      one.line = from.line;
+      one.strike = patch.strike ? patch.strike : from.strike;
+      one.dip = patch.dip ? patch.dip : from.dip;
+      one.cell_length = from.cell_length, one.cell_width = from.cell_width;
       if (patch.area) one.cell_length = one.cell_width = std::sqrt(*patch.area);
       one.along_strike = one.down_dip = 1;
-      segments.push_back(std::move(one));
+      one.patches = {patch};
     }
   }
   model.segments = std::move(segments);
