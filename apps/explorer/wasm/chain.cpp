@@ -99,7 +99,8 @@ SLIPFRONT_EXPORT const char* chain_go(double time, double milliseconds, double h
     std::vector<double> x, W, Sigma;
     for (int i = 0; i < average_points; ++i) {
       x.push_back(now.left + (now.right - now.left) * (i + 0.5) / average_points);
-      const auto mean = chain::smooth_average(c, all, now.scale * x.back(), now.scale * now.window);
+      const auto mean = chain::smooth_average(
+          c, all, chain::weights_of_smooth_mean(c.problem().grid, now.scale * x.back(), now.scale * now.window));
       W.push_back(mean.velocity);
       Sigma.push_back(mean.stress);
     }

@@ -6,6 +6,7 @@
 /// loops over many positions follow from the force, by quadrature and bracketing, unless the law knows closed forms.
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -82,7 +83,7 @@ inline constexpr std::size_t most_variables = 16;
 /// The values at one position, next to each other.
 class LocalValues {
  public:
-  explicit LocalValues(std::size_t size) : size_(size) {}
+  explicit LocalValues(std::size_t size) : size_(size) { assert(size <= most_variables); }
   double& operator[](std::size_t v) { return values_[v]; }
   operator LocalState() const { return {values_.data(), size_}; }
   operator std::span<double>() { return {values_.data(), size_}; }

@@ -138,7 +138,7 @@ struct AtPositions {
   const double* of(Value parameter) const { return parameters.at()[parameter]; }
 };
 
-constexpr double largest_exponent = 650;
+constexpr double largest_exponent = 600;
 
 SLIPFRONT_CLONES void find_G(std::size_t size, AtPositions& at) {
   const double *const f_0 = at.of(f0), *const a = at.of(direct), *const b = at.of(evolution_effect);
