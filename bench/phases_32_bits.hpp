@@ -141,6 +141,15 @@ class Reals final : public Stepper {
   long level_ = 0;
 };
 
+/// Adds the second difference of y to the next z.
+[[gnu::always_inline]] inline void add_neighbours(const Rule32& r, std::size_t n, const Phase* y, Phase* next) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < n; ++j) {
+    const Phase bend = y[j - 1] + y[j + 1] - 2 * y[j];
+    next[j] += bend - whole(r.rest * number(bend));
+  }
+}
+
 SLIPFRONT_CLONES inline void step_of(const Rule32& rule, std::size_t n, const Phase* now, Phase* old, Phase* y) {
   const Rule32 r = rule;
   SLIPFRONT_INDEPENDENT
@@ -150,11 +159,7 @@ SLIPFRONT_CLONES inline void step_of(const Rule32& rule, std::size_t n, const Ph
     y[j] = z - whole(r.coupled * S);
     old[j] = z + D - whole(r.force * S + r.damping * number(D));
   }
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < n; ++j) {
-    const Phase bend = y[j - 1] + y[j + 1] - 2 * y[j];
-    old[j] += bend - whole(r.rest * number(bend));
-  }
+  add_neighbours(r, n, y, old);
 }
 
 constexpr std::size_t vectors_of_sum = 64;
@@ -183,11 +188,7 @@ SLIPFRONT_CLONES inline double step_with_work(const Rule32& rule, std::size_t n,
     }
     for (const float p : part) sum += static_cast<double>(p);
   }
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < n; ++j) {
-    const Phase bend = y[j - 1] + y[j + 1] - 2 * y[j];
-    old[j] += bend - whole(r.rest * number(bend));
-  }
+  add_neighbours(r, n, y, old);
   return sum;
 }
 

@@ -46,7 +46,7 @@ Comparison comparison_of(const scenario::Scenario& scenario, std::vector<double>
 /// Begins each level and takes no step, to find what a run refuses at its start. \throws InputError like a run.
 void begin_levels(const Comparison& comparison);
 
-/// Begins each level, and returns about how many seconds all of them take (expected_seconds of a run). \throws
+/// Begins each level, and returns about how many seconds all of them take (expected_duration of a run). \throws
 /// InputError, NumericsError like a run.
 double expected_seconds(const Comparison& comparison, int threads);
 

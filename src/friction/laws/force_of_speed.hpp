@@ -73,14 +73,40 @@ void forces_where_they_vary(const std::vector<double>& values, const Varying& va
   });
 }
 
-template <class Force>
-class VaryingForceOfSpeed;
+/// Lets the law find each force that is NaN, because it is outside the range of the vector code.
+inline void find_others(const Law& law, std::size_t size, const double* speed, LocalStates states, double* f) {
+  for (std::size_t i = 0; i < size; ++i)
+    if (std::isnan(f[i])) f[i] = law.strength(speed[i], states.at(i));
+}
+
+/// The law L, whose force is `Force` at a speed, with parameters that vary. A `Force` that has limits is NaN outside
+/// of them.
+template <class L, class Force>
+class VaryingForce final : public VaryingLaw<L> {
+ public:
+  using VaryingLaw<L>::VaryingLaw;
+  const ForceLoops& loops() const override { return loops_; }
+
+ private:
+  class Loops final : public ForceLoops {
+   public:
+    explicit Loops(const VaryingForce& law) : ForceLoops(law), all_(law) {}
+    void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
+      forces_where_they_vary<Force>(all_.values(), all_.varying(), size, speed, states, force);
+      if constexpr (requires { Force::has_limits; }) find_others(law_, size, speed, states, force);
+    }
+
+   private:
+    const VaryingForce& all_;
+  };
+  Loops loops_{*this};
+};
 
 /// A law whose force depends on the speed only.
 template <class Force>
 class ForceOfSpeed final : public Law {
  public:
-  using WhereItVaries = VaryingForceOfSpeed<Force>;
+  using WhereItVaries = VaryingForce<ForceOfSpeed, Force>;
   explicit ForceOfSpeed(const std::vector<double>& values) : force_(force_with<Force>(values)), loops_(*this, force_) {}
   double strength(double speed, LocalState) const override { return force_(speed); }
   const ForceLoops& loops() const override { return loops_; }
@@ -98,26 +124,6 @@ class ForceOfSpeed final : public Law {
   };
   Force force_;
   Loops loops_;
-};
-
-template <class Force>
-class VaryingForceOfSpeed final : public VaryingLaw<ForceOfSpeed<Force>> {
- public:
-  using VaryingLaw<ForceOfSpeed<Force>>::VaryingLaw;
-  const ForceLoops& loops() const override { return loops_; }
-
- private:
-  class Loops final : public ForceLoops {
-   public:
-    explicit Loops(const VaryingForceOfSpeed& law) : ForceLoops(law), all_(law) {}
-    void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
-      forces_where_they_vary<Force>(all_.values(), all_.varying(), size, speed, states, force);
-    }
-
-   private:
-    const VaryingForceOfSpeed& all_;
-  };
-  Loops loops_{*this};
 };
 
 /// The speed of a step, which counts as 0 if it is a rounding error.

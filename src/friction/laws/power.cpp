@@ -87,6 +87,7 @@ class PowerRate final : public RelaxationRate {
 /// C w^n; NaN where that exceeds the range of exp. w = 0 gives 0.
 struct PowerForce {
   using Values = std::array<double, 2>;
+  static constexpr bool has_limits = true;
   double C, n;
   SLIPFRONT_INLINE explicit PowerForce(const Values& values) : C(values[0]), n(values[1]) {}
   SLIPFRONT_INLINE double operator()(double speed) const {
@@ -135,8 +136,7 @@ class PowerLoops final : public ForceLoops {
   PowerLoops(const Law& law, double coefficient, double exponent) : ForceLoops(law), C_(coefficient), n_(exponent) {}
   void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
     forces_at(PowerForce({C_, n_}), size, speed, force);
-    for (std::size_t i = 0; i < size; ++i)
-      if (std::isnan(force[i])) force[i] = law_.strength(speed[i], states.at(i));
+    find_others(law_, size, speed, states, force);
   }
 
  private:
@@ -160,11 +160,9 @@ class PowerAverage final : public TabulatedAverage {
   double C_, n_;
 };
 
-class VaryingPower;
-
 class Power final : public Law {
  public:
-  using WhereItVaries = VaryingPower;
+  using WhereItVaries = VaryingForce<Power, PowerForce>;
 
   explicit Power(const std::vector<double>& values)
       : Law({.steep_at_rest = values[1] < 1}),
@@ -200,28 +198,6 @@ class Power final : public Law {
   PowerLoops loops_;
   ClosedLoops<ClosedSquare> square_loops_;
   PowerAverage average_;
-};
-
-class VaryingPower final : public VaryingLaw<Power> {
- public:
-  VaryingPower(const std::vector<double>& values, const Varying& varying) : VaryingLaw(values, varying) {}
-  const ForceLoops& loops() const override { return loops_; }
-
- private:
-  class Loops final : public ForceLoops {
-   public:
-    explicit Loops(const VaryingPower& law) : ForceLoops(law), all_(law) {}
-    void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
-      forces_where_they_vary<PowerForce>(all_.values(), all_.varying(), size, speed, states, force);
-      for (std::size_t i = 0; i < size; ++i)
-        if (std::isnan(force[i])) force[i] = law_.strength(speed[i], states.at(i));
-    }
-
-   private:
-    const VaryingPower& all_;
-  };
-
-  Loops loops_{*this};
 };
 
 }  // namespace

@@ -234,7 +234,7 @@ bool ForcingInTime::fits(const Ranks& ranks) {
 
 namespace {
 
-constexpr std::size_t together = 256;  ///< sites in one pass of the friction loops; a pass with no moving site is cheap
+constexpr std::size_t together = 256;  ///< sites in one pass of the loops over states
 
 /// a(x)^2 on sites [first, last). It is empty if a is 1 everywhere and does not change.
 std::vector<double> a2_of(const Problem& p, long first, long last) {
