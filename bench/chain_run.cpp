@@ -1,5 +1,6 @@
 // Runs the lattice of Eq. (1) from a given state, for peers/lammps_chain.py: with slipfront's chain, or with leapfrog
-// as a plain loop with the sine of the C library. Usage: chain_run FILE SPACING STEP STEPS chain|plain. FILE contains
+// as a plain loop with the sine of the C library. Usage: chain_run FILE SPACING STEP STEPS chain|single|plain, where
+// single means phases of 32 bits. FILE contains
 // u, then u_t, of every site as binary doubles. The program writes u at the end to FILE.out, and prints the processor
 // time of the steps in seconds.
 
@@ -43,7 +44,8 @@ double plain(std::vector<double>& u, std::vector<double>& velocity, double spaci
 }
 
 /// Advances `u` with the library. Returns the processor time in seconds.
-double by_library(std::vector<double>& u, const std::vector<double>& velocity, double spacing, double dt, long steps) {
+double by_library(std::vector<double>& u, const std::vector<double>& velocity, double spacing, double dt, long steps,
+                  bool phases_of_32_bits) {
   using namespace slipfront::chain;
   const std::size_t n = u.size();
   Problem problem;
@@ -51,6 +53,7 @@ double by_library(std::vector<double>& u, const std::vector<double>& velocity, d
   problem.model = Model::lattice;
   problem.boundary.left = problem.boundary.right = End::fixed;
   problem.step = dt;
+  problem.phases_of_32_bits = phases_of_32_bits;
   Levels levels{0, u, u};
   for (std::size_t j = 0; j < n; ++j) {
     levels.now[j] = u[j] / turn;
@@ -80,8 +83,9 @@ int main(int argc, char** argv) {
   // With velocities half a step before the start, leapfrog does the same steps as velocity Verlet. The ends are fixed.
   for (std::size_t j = 1; j + 1 < n; ++j) velocity[j] -= dt / 2 * acceleration(u, j, spacing);
 
-  const double seconds = argv[5] == std::string("plain") ? plain(u, velocity, spacing, dt, steps)
-                                                         : by_library(u, velocity, spacing, dt, steps);
+  const double seconds = argv[5] == std::string("plain")
+                             ? plain(u, velocity, spacing, dt, steps)
+                             : by_library(u, velocity, spacing, dt, steps, argv[5] == std::string("single"));
   std::ofstream(path + ".out", std::ios::binary)
       .write(reinterpret_cast<const char*>(u.data()), static_cast<std::streamsize>(n * sizeof(double)));
   std::printf("%.9g\n", seconds);

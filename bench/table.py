@@ -36,7 +36,9 @@ STATE = ["friction.law=rate-and-state", "friction.strength=0.05", "friction.dire
          "friction.evolution_effect=0.005", "friction.reference_velocity=0.1"]
 FORCES = {
     "no friction": [],
+    "no friction, single precision": ["chain.precision=single"],
     "viscous friction": ["friction.law=viscous", "friction.coefficient=0.5"],
+    "viscous friction, single precision": ["friction.law=viscous", "friction.coefficient=0.5", "chain.precision=single"],
     "Coulomb friction": ["friction.law=coulomb", "friction.coefficient=0.05"],
     "power law, n = 2": ["friction.law=power", "friction.coefficient=0.1", "friction.exponent=2"],
     "rate-and-state friction": STATE,

@@ -116,19 +116,23 @@ def difference(a, b):
 
 
 def main(chain_run="build/release/bin/chain_run", lmp="lmp"):
-    """Returns, for each number of sites, the rate of slipfront over those of LAMMPS and of the plain loop."""
+    """Returns, for each number of sites, the rate of slipfront over those of LAMMPS, in doubles and with phases of 32 bits,
+    and over that of the plain loop."""
     ratios = []
     with tempfile.TemporaryDirectory() as folder:
         for sites, steps in SIZES:
             u, v = start(sites)
             plain_seconds, plain = ours(chain_run, folder, u, v, steps, "plain")
-            chain = ours(chain_run, folder, u, v, steps)[1]
+            chain, single = (ours(chain_run, folder, u, v, steps, how)[1] for how in ("chain", "single"))
             longer = steps * OURS_LONGER
-            rate = sites * longer / min(ours(chain_run, folder, u, v, longer)[0] for _ in range(REPEATS))
+            rate, single_rate = (sites * longer / min(ours(chain_run, folder, u, v, longer, how)[0] for _ in range(REPEATS))
+                                 for how in ("chain", "single"))
             print(f"{sites} sites, {steps} steps, in which u changes by up to {difference(u, plain):.1f}. Largest difference of u\n"
                   "from slipfront and from a plain leapfrog loop with the sine of the C library:")
             print(f"{'':<42}{'slipfront':>10}{'plain':>10}{'M sites/s':>11}{'slipfront is':>14}")
             print(f"{'slipfront':<42}{'':>10}{difference(chain, plain):>10.1e}{rate / 1e6:>11.1f}")
+            print(f"{'slipfront, phases of 32 bits':<42}{difference(single, chain):>10.1e}{difference(single, plain):>10.1e}"
+                  f"{single_rate / 1e6:>11.1f}")
             best = 0
             for name, pitch, substrate in VARIANTS:
                 version, seconds, end = lammps(lmp, folder, u, v, steps, pitch, substrate)
@@ -139,7 +143,7 @@ def main(chain_run="build/release/bin/chain_run", lmp="lmp"):
             print(f"{'plain leapfrog':<42}{difference(chain, plain):>10.1e}{'':>10}"
                   f"{sites * steps / plain_seconds / 1e6:>11.1f}")
             print(f"{version}: slipfront is {rate / best:.0f} times as fast as its fastest variant\n", flush=True)
-            ratios.append((rate / best, rate * plain_seconds / sites / steps))
+            ratios.append((rate / best, single_rate / best, rate * plain_seconds / sites / steps))
     return ratios
 
 

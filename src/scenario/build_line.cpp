@@ -308,6 +308,7 @@ chain::ScaledProblem chain_problem(const Scenario& s) {
   c.substrate = s.substrate;
   c.implicit = s.chain.implicit;
   c.tolerance = s.chain.tolerance;
+  c.phases_of_32_bits = s.chain.phases_of_32_bits;
   if (!c.substrate && !c.implicit)
     throw InputError({.file = s.file,
                       .key = "interface.contact",

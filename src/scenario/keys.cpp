@@ -247,6 +247,8 @@ std::vector<Key> chain_keys() {
                  "length of the average at x = 0"),
       word_key(table, "steps", {"explicit", "implicit"}, "explicit", "time steps; always implicit with [loading]"),
       number_key(table, "tolerance", ModelUnit::none, tolerance_limits, "5e-05", "error of an implicit step"),
+      word_key(table, "precision", {"double", "single"}, "double",
+               "of explicit steps; single: faster, without friction or with viscous friction only"),
   };
 }
 

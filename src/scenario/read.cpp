@@ -81,6 +81,7 @@ void read_chain(const Document& document, ChainOptions& chain) {
   section.read("window", chain.window);
   section.read("steps", chain.implicit);
   section.read("tolerance", chain.tolerance);
+  section.read("precision", chain.phases_of_32_bits);
   if (section.has("tolerance") && section.has("steps") && !chain.implicit)
     throw section.refuse("tolerance", "is of implicit steps", "with chain.steps = \"implicit\" or [loading]");
 }

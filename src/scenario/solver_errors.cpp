@@ -27,6 +27,7 @@ constexpr ProblemPart problem_parts[] = {
     {SolverKind::chain, "right end", "chain.right"},
     {SolverKind::chain, "periodic", "chain.periodic"},
     {SolverKind::chain, "spacing", "chain.spacing"},
+    {SolverKind::chain, "precision", "chain.precision"},
     {SolverKind::plane, "slip", ""},
     {SolverKind::plane, "hold", "initial.hold", direct_command},
     {SolverKind::plane, "friction", "friction.law", direct_command},

@@ -10,7 +10,7 @@
 /// Chains of every kind of end and force, from a rough start, for comparisons to the bit.
 namespace cases {
 
-inline constexpr int kinds = 15;
+inline constexpr int kinds = 18;
 
 /// A law by its name, with the first of its parameters; the others have their default values.
 inline slipfront::friction::Friction law(const char* name, const std::vector<double>& first) {
@@ -102,6 +102,13 @@ inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
                      .with("drainage_time", between(20, 30));
     p.longest = 100;
   }
+  if (kind >= 15) {  // phases of 32 bits
+    p.phases_of_32_bits = true;
+    p.boundary = {End::free, End::fixed, false, 0};
+  }
+  if (kind == 16) p.boundary = {.periodic = true, .charge = sites < 20 ? 1 : 3};
+  if (kind == 17) p.boundary = {End::free, End::free, false, 0};
+  if (kind == 16 || kind == 17) p.friction = slipfront::friction::viscous(0.3);
   return p;
 }
 

@@ -72,6 +72,7 @@ struct ChainOptions {
   bool periodic = false;         ///< a ring; `left` and `right` are ignored
   bool implicit = false;         ///< implicit steps of any length; [loading] always uses them
   double tolerance = 5e-5;       ///< tolerance of implicit steps, 1e-12 to 0.1
+  bool phases_of_32_bits = false;  ///< single precision: chain::Problem::phases_of_32_bits
   std::optional<double> window;  ///< averaging window at x = 0, > 0, in the x of the scenario
 };
 

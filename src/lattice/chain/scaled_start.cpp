@@ -82,6 +82,7 @@ Problem problem_of(const ScaledProblem& s, double share_of_machine) {
   p.substrate = s.substrate;
   p.implicit = s.implicit || s.loading.acts();
   p.tolerance = s.tolerance;
+  p.phases_of_32_bits = s.phases_of_32_bits;
   p.longest = s.scale * s.end;
   p.boundary.left_stress = s.stress(s.left);
   p.boundary.right_stress = s.stress(s.right);

@@ -85,6 +85,8 @@ struct Problem {
   double crossing_stress = 0;
   double step = 0;  ///< dt; 0: chosen_step. Only with the chosen step is sine_gordon of fourth order
   Loading loading = {};
+  /// Explicit steps with phases of 32 bits (docs/chain.md), without friction or with viscous friction only.
+  bool phases_of_32_bits = false;
   bool substrate = true;    ///< false: a smooth surface, a = 0; needs implicit steps
   bool implicit = false;    ///< take implicit steps of any length (docs/loading.md) and ignore `step`
   double tolerance = 5e-5;  ///< largest error of an implicit step: u in radians, u_t in c A / 2 pi, ln(theta)

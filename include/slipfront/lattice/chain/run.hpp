@@ -34,8 +34,9 @@ struct ScaledProblem {
   Model model = Model::sine_gordon;
   double spacing = default_spacing;  ///< spacing of the grid or lattice, in the chain's own (scaled) x
   Loading loading = {};              ///< in the scenario's units
-  bool substrate = true;             ///< see Problem, like the next two
+  bool substrate = true;             ///< see Problem, like the next three
   bool implicit = false;
+  bool phases_of_32_bits = false;
   double tolerance = 5e-5;
   double step = 0;  ///< time step, in the chain's own t; 0: chosen_step
   /// Width of the averages at x = 0, in the scenario's x. With 0, the slip is averaged over one spacing of the denser

@@ -82,7 +82,7 @@ void RankSites::check_execution() const {
 void RankSites::make_slabs() {
   const std::size_t whole = end_block_ - first_block_;
   const auto threads = static_cast<std::size_t>(execution_.threads);
-  const std::size_t cached = (execution_.tile + 2 * halo) * Sweep::least_arrays / Sweep::arrays(forces_, meter_);
+  const std::size_t cached = (execution_.tile + 2 * halo) * Sweep::usual_bytes / Sweep::bytes(forces_, meter_);
   execution_.tile = std::max(cached, 4 * halo) - 2 * halo;
   // Sites that move can take several times as long as those at rest, and be at one side. So each thread gets several
   // slabs, of a tile or more.
@@ -114,6 +114,11 @@ void RankSites::fill(const LevelsOf& source) {
       if (levels.now.size() != size || levels.before.size() != size ||
           (states != 0 && states != size * forces_.state_size()))
         refuse_levels(levels.now.size(), std::to_string(size) + " of " + std::to_string(problem_.grid.sites));
+      if (problem_.phases_of_32_bits && !bounded(levels.now.data(), size, most_turns_of_phases))
+        throw InputError({.key = "precision",
+                          .value = "single",
+                          .problem = "a displacement is " + digits(most_turns_of_phases) + " turns or more",
+                          .allowed = "double"});
       std::copy_n(levels.now.data(), size, slab.now() + at);
       std::copy_n(levels.before.data(), size, slab.old() + at);
       if (states > 0) forces_.set_states(from, levels.state);
@@ -201,13 +206,15 @@ void RankSites::advance(std::size_t count) {
 
 void RankSites::check_numbers() const {
   if (forces_.contacts().acts()) forces_.contacts().check(time());
-  for (const Slab& slab : slabs_) {
-    if (bounded(slab.now(), slab.size())) continue;
-    std::size_t j = 0;
-    while (bounded(slab.now() + j, 1)) ++j;
-    const std::size_t site = slab.begin() + j;
-    throw NumericsError("t = " + digits(time()) + ": displacement of site " + std::to_string(site) +
-                        " (x = " + digits(problem_.grid.x(site)) + ") is not a number");
+  for (const Sweep& sweep : sweeps_) {
+    const std::optional<std::size_t> site = sweep.wrong_site();
+    if (!site) continue;
+    throw NumericsError("t = " + digits(time()) + ": displacement of site " + std::to_string(*site) +
+                        " (x = " + digits(problem_.grid.x(*site)) + ") " +
+                        (problem_.phases_of_32_bits
+                             ? "changes by half a turn in a step or a spacing, or is a million turns. Phases of 32 "
+                               "bits cannot follow it: try chain.precision = \"double\""
+                             : "is not a number"));
   }
 }
 

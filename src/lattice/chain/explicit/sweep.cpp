@@ -128,12 +128,16 @@ Sweep::Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size
       left_now_(halo),
       left_old_(halo),
       left_states_(forces.variables() * halo),
-      right_states_(forces.variables() * halo) {}
+      right_states_(forces.variables() * halo) {
+  if (forces.phases_of_32_bits()) phases_.emplace(forces.scheme(), room_, meter.of_each_step() != Measured::nothing);
+}
 
-std::size_t Sweep::arrays(const Forces& forces, const WorkMeter& meter) {
-  return least_arrays + (forces.has_contact() ? PeriodicForce::terms / 2 : 0) + forces.variables() +
-         (meter.of_each_step() == Measured::nothing ? 0 : 2) + (forces.implicit_speed() ? 2 : 0) +
-         (meter.needs_step_before() ? 3 : 0);
+std::size_t Sweep::bytes(const Forces& forces, const WorkMeter& meter) {
+  const std::size_t measuring = meter.of_each_step() == Measured::nothing ? 0 : 2;
+  if (forces.phases_of_32_bits()) return (3 + measuring) * sizeof(Phase);
+  return usual_bytes +
+         sizeof(double) * ((forces.has_contact() ? PeriodicForce::terms / 2 : 0) + forces.variables() + measuring +
+                           (forces.implicit_speed() ? 2 : 0) + (meter.needs_step_before() ? 3 : 0));
 }
 
 void Sweep::exchange_states() {
@@ -158,7 +162,10 @@ void Sweep::advance(std::size_t count) {
   for (std::size_t piece = 0; piece + 1 < cuts_.size(); ++piece) {
     const Tile t = tile(piece);
     load(t);
-    advance(t, count);
+    if (phases_)
+      advance_phases(t, count);
+    else
+      advance(t, count);
     store(t);
   }
 }
@@ -189,9 +196,19 @@ void Sweep::load_states(const Tile& t) {
 void Sweep::store(const Tile& t) {
   copy(now_ + own, slab_.now() + t.from, t.width);
   copy(before_ + own, slab_.old() + t.from, t.width);
+  if (!wrong_site_) find_wrong_site(t);
   if (forces_.ages())
     copy_states(forces_.evolving(), columns(own),
                 {forces_.state_of(static_cast<long>(slab_.begin() + t.from)), forces_.variables()}, t.width);
+}
+
+void Sweep::find_wrong_site(const Tile& t) {
+  const double* const z = now_ + own;
+  const double most = phases_ ? most_turns_of_phases : most_turns;
+  std::size_t j = phases_ ? phases_->first_not_followed() - own : t.width;
+  if (!bounded(z, t.width, most))
+    for (j = 0; bounded(z + j, 1, most);) ++j;
+  if (j < t.width) wrong_site_ = slab_.begin() + t.from + j;
 }
 
 /// Asks the processor to load some sites of the next tile into its cache while it computes this one.
@@ -243,6 +260,20 @@ void Sweep::advance(const Tile& t, std::size_t count) {
     }
   }
   last_step(t, count);
+}
+
+void Sweep::advance_phases(const Tile& t, std::size_t count) {
+  const std::size_t last = own + t.width;
+  phases_->load(before_, now_, {pad, last + halo}, {own, last});
+  for (std::size_t i = 0; i < count; ++i) {
+    prefetch(t, i, count);
+    const LevelSites s = sites_at(t, count - 1 - i);
+    StepOfU measured = step(t);
+    if (i == 0 && measured.what != Measured::nothing) measured.what = Measured::steps;  // it was measured before
+    phases_->advance(t.ends, {s.left, s.right}, measured);
+  }
+  if (meter_.of_each_step() != Measured::nothing) phases_->measure(step(t));
+  phases_->store(before_, now_);
 }
 
 /// The measure of the first loop for the steps of a tile.

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "lattice/chain/explicit/forces.hpp"
+#include "lattice/chain/explicit/levels/phases.hpp"
 #include "lattice/chain/explicit/levels/slab.hpp"
 #include "lattice/chain/model/blocks.hpp"
 
@@ -70,15 +72,18 @@ class Sweep {
   /// least as many sites as a halo, unless it is the only one.
   Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size_t> cuts);
 
-  /// How many numbers of a site each level reads or writes. With fewer of them, more sites stay in the cache. The
+  /// How many bytes of a site each level reads or writes. With fewer of them, more sites stay in the cache. The
   /// coefficients of contacts count by half: they are read in order, so that half of them may come from the next cache.
-  static std::size_t arrays(const Forces& forces, const WorkMeter& meter);
-  static constexpr std::size_t least_arrays = 3;
+  static std::size_t bytes(const Forces& forces, const WorkMeter& meter);
+  static constexpr std::size_t usual_bytes = 3 * sizeof(double);
 
   /// Gets the state variables of the sites next to the slab, which another thread may change while this one advances.
   void exchange_states();
   /// Advances by `count` levels, at most a halo.
   void advance(std::size_t count);
+  /// The first site found in an advance whose displacement is no longer a number, or changes too much for phases of
+  /// 32 bits.
+  std::optional<std::size_t> wrong_site() const { return wrong_site_; }
 
  private:
   /// One tile during an advance, as indices of its arrays.
@@ -91,7 +96,9 @@ class Sweep {
   void load(const Tile& tile);
   void load_states(const Tile& tile);
   void store(const Tile& tile);
+  void find_wrong_site(const Tile& tile);
   void advance(const Tile& tile, std::size_t count);
+  void advance_phases(const Tile& tile, std::size_t count);
   /// The states of a tile from index i on: one variable after the other, as vector code reads them.
   friction::EvolvingStates columns(std::size_t i) {
     if (forces_.variables() == 0) return {};
@@ -116,6 +123,8 @@ class Sweep {
   double *D_, *D_before_;        ///< the last two steps, which take turns in `steps_` if both are needed
   Aligned left_now_, left_old_;  ///< the sites left of the next tile before this one changes them
   Aligned left_states_, right_states_;
+  std::optional<std::size_t> wrong_site_;
+  std::optional<PhaseTile> phases_;  ///< computes the levels if phases have 32 bits
 };
 
 }  // namespace slipfront::chain

@@ -33,6 +33,24 @@ void check_ends(const Problem& p) {
                         .allowed = "free or fixed, or friction without contact_ageing and dilatancy"});
 }
 
+void check_precision(const Problem& p) {
+  if (!p.phases_of_32_bits) return;
+  const friction::Friction& f = p.friction;
+  const auto absorbs = [&](End end) { return !p.boundary.periodic && end == End::absorbing; };
+  const char* const refused = p.implicit                                              ? "implicit steps"
+                              : p.contact || f.changes_contacts()                     ? "a contact ratio"
+                              : p.forcing                                             ? "forces"
+                              : f.acts() && !f.linear_coefficient()                   ? "this friction"
+                              : absorbs(p.boundary.left) || absorbs(p.boundary.right) ? "absorbing ends"
+                                                                                      : nullptr;
+  if (refused == nullptr) return;
+  throw InputError({.key = "precision",
+                    .value = "single",
+                    .problem = std::string("not possible with ") + refused,
+                    .allowed = "double; single is for explicit steps, a contact ratio of 1, no force, no friction or a "
+                               "uniform viscous one, and ends that are fixed, free or periodic"});
+}
+
 /// The step at which the amplitude f of the shortest wave in x and t, (-1)^(site + level) f, obeys
 ///     f_tt - f_xx + ((a^2 - a^2 cos u) / 3 + mass^2) f = 0:
 /// 4 / dt^2 = 4 / h^2 + a^2 / 3 + mass^2. It is pumped where cos u varies at twice its least frequency, mass, or more
@@ -94,6 +112,7 @@ void check(const Problem& p, double share_of_machine) {
   if (!std::isfinite(p.grid.left)) refuse("left", p.grid.left, "out of range", "finite");
   if (p.grid.sites < 8) refuse("sites", static_cast<double>(p.grid.sites), "too few", ">= 8");
   check_ends(p);
+  check_precision(p);
   const double need = memory_needed(p) * share_of_machine, have = usable_memory();
   if (need > have)
     refuse("sites", static_cast<double>(p.grid.sites),

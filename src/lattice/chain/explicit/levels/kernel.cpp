@@ -416,9 +416,9 @@ SLIPFRONT_CLONES void energies_of_contacts(const PeriodicForce& sine, const doub
   }
 }
 
-SLIPFRONT_CLONES bool bounded(const double* z, std::size_t size) {
+SLIPFRONT_CLONES bool bounded(const double* z, std::size_t size, double most) {
   std::size_t bad = 0;
-  for (std::size_t j = 0; j < size; ++j) bad += std::fabs(z[j]) < 2251799813685248.0 ? 0u : 1u;
+  for (std::size_t j = 0; j < size; ++j) bad += std::fabs(z[j]) < most ? 0u : 1u;
   return bad == 0;
 }
 

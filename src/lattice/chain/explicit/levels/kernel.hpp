@@ -144,7 +144,9 @@ void add_works(const BlockSums& to, double factor, const ForceTerms& F, const Fo
 void energies_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next, const double* u,
                           const double* D, double* energy, std::size_t size);
 
-/// Whether every |z| is small enough for the range reduction. It is false if any z is NaN.
-bool bounded(const double* z, std::size_t size);
+/// The largest |z| for which the range reduction is right, in turns.
+inline constexpr double most_turns = 2251799813685248;
+/// Whether every |z| is less than `most`. It is false if any z is NaN.
+bool bounded(const double* z, std::size_t size, double most = most_turns);
 
 }  // namespace slipfront::chain

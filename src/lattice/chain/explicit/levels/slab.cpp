@@ -105,11 +105,6 @@ AbsorbingEnd::Step AbsorbingEnd::step(const double* now, const double* next) con
   return {now[0] + gained / turn, outward * traction * rise};
 }
 
-Aligned::Aligned(std::size_t size)
-    : data_(static_cast<double*>(::operator new[]((size + 1) * sizeof(double), std::align_val_t{64}))) {
-  std::fill_n(data_.get(), size + 1, 0.0);
-}
-
 Slab::Slab(std::size_t begin, std::size_t size, const EndConditions& ends)
     : begin_(begin), size_(size), ends_(ends), now_(size + 2 * margin + lanes), old_(size + 2 * margin + lanes) {}
 

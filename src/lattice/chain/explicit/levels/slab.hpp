@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -39,19 +40,24 @@ struct AbsorbingEnd {
   double velocity_of_train(const double* now, const double* next) const;
 };
 
-/// Doubles from a multiple of 64 bytes on, zero at first.
-class Aligned {
+/// Numbers from a multiple of 64 bytes on, zero at first.
+template <class Number>
+class AlignedArray {
  public:
-  explicit Aligned(std::size_t size = 0);
-  double* data() { return data_.get(); }
-  const double* data() const { return data_.get(); }
+  explicit AlignedArray(std::size_t size = 0)
+      : data_(static_cast<Number*>(::operator new[]((size + 1) * sizeof(Number), std::align_val_t{64}))) {
+    std::fill_n(data_.get(), size + 1, Number{});
+  }
+  Number* data() { return data_.get(); }
+  const Number* data() const { return data_.get(); }
 
  private:
   struct Free {
-    void operator()(double* p) const { ::operator delete[](p, std::align_val_t{64}); }
+    void operator()(Number* p) const { ::operator delete[](p, std::align_val_t{64}); }
   };
-  std::unique_ptr<double[], Free> data_;
+  std::unique_ptr<Number[], Free> data_;
 };
+using Aligned = AlignedArray<double>;
 
 /// Levels that are computed between two exchanges of halos, and so the depth of a halo: a chain in memory is read and
 /// written once in that many levels.

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lattice/chain/explicit/levels/kernel.hpp"
+#include "lattice/chain/explicit/levels/scheme.hpp"
+#include "lattice/chain/explicit/levels/slab.hpp"
+
+/// Phases of 32 bits (docs/chain.md). An integer counts 2^-32 of a turn: sums are exact, and overflow takes away whole
+/// turns, as the sine does. Multiples of S, of steps and of second differences are computed in single precision, and
+/// rounded to integers.
+namespace slipfront::chain {
+
+using Phase = std::uint32_t;
+
+/// |z| is less than this many turns, so that doubles hold all bits of it.
+inline constexpr double most_turns_of_phases = 1048576;
+
+/// LevelRule in single precision, with S in units of phases and d2 y = y_left + y_right - 2 y. In the numbers of
+/// LevelRule, and with D = z - z_old,
+///     next = z + D - (1 - before) D - (force + 2 spread coupled) S + spread d2 y.
+/// Where spread is near 1, d2 y is added as it is, and only the rest is rounded.
+struct PhaseRule {
+  explicit PhaseRule(const Scheme& scheme);
+
+  float c[PeriodicForce::terms];  ///< of S, as a function of z in turns
+  float eps, coupled, force, damping, spread;
+};
+
+/// The levels of one tile with phases of 32 bits.
+class PhaseTile {
+ public:
+  /// `room` as in the arrays of the tile in doubles; `measures`: whether steps of u are measured.
+  PhaseTile(const Scheme& scheme, std::size_t room, bool measures);
+
+  /// Gets two levels on indices [begin, end), of which those of `own` belong to the tile.
+  struct Range {
+    std::size_t begin, end;
+  };
+  void load(const double* before, const double* now, Range all, Range own);
+  /// Computes the next level of sites [left, right), and measures the step to the present one if `measured` says so:
+  /// only Measured::nothing, steps and squares.
+  void advance(const EndConditions& ends, Range sites, const StepOfU& measured);
+  /// Measures the step to the present level.
+  void measure(const StepOfU& measured);
+  /// Returns the levels of the sites of the tile.
+  void store(double* before, double* now) const;
+  /// The first of these sites whose z differs by 0.45 turns or more from the next one of them or from the level
+  /// before; the end of the tile if there is none. From half a turn on, phases go the shorter way around.
+  std::size_t first_not_followed() const;
+
+ private:
+  template <bool moves>
+  void measure_part(const StepOfU& measured);
+
+  PhaseRule rule_;
+  bool measures_;
+  AlignedArray<Phase> arrays_[3];
+  AlignedArray<float> of_steps_[2];
+  Phase *now_, *old_;  ///< the levels, which take turns in two of the arrays
+  Phase* y_;
+  float *shift_, *D_;        ///< z - u at the level before, and the step of u to it
+  std::vector<float> sums_;  ///< of blocks, in a step
+  Range own_{};
+  std::int64_t first_ = 0;  ///< z of the first site, in units of phases, with its whole turns
+};
+
+}  // namespace slipfront::chain
