@@ -94,12 +94,15 @@ double driving_force(const ScaledProblem& s, double end) {
 /// would compute the same sites for each.
 class SeenOnce final : public Sites {
  public:
-  SeenOnce(const Sites& chain, double time)
-      : Sites(chain.problem(), &chain.ranks()),
-        chain_(chain),
-        time_(time),
-        all_(chain.window(0, chain.problem().grid.sites, time)) {
-    for (std::size_t j = 0; j < all_.x.size(); ++j) all_.energy.push_back(energy_density(chain.problem(), all_, j));
+  SeenOnce(const Sites& chain, double time) : Sites(chain.problem(), &chain.ranks()), chain_(chain), time_(time) {
+    for (const auto column : Window::columns) (all_.*column).reserve(chain.problem().grid.sites);
+    for_own_blocks(chain, 2, time, [&](const Window& w, std::size_t begin, std::size_t end) {
+      for (const auto column : Window::columns) {
+        const double* const of_block = (w.*column).data() + (begin - w.begin);
+        (all_.*column).insert((all_.*column).end(), of_block, of_block + (end - begin));
+      }
+      for (std::size_t j = begin; j < end; ++j) all_.energy.push_back(energy_density(chain.problem(), w, j));
+    });
   }
 
   static bool is_worth(const Sites& chain) {
@@ -114,13 +117,10 @@ class SeenOnce final : public Sites {
     const auto part = [&](const std::vector<double>& all) {
       return std::vector<double>(all.data() + begin, all.data() + end);
     };
-    return {begin,
-            part(all_.x),
-            part(all_.u),
-            part(all_.velocity),
-            part(all_.stress),
-            part(all_.contact_squared),
-            part(all_.effective_stress)};
+    Window window;
+    window.begin = begin;
+    for (const auto column : Window::columns) window.*column = part(all_.*column);
+    return window;
   }
   const Window* known() const override { return &all_; }
   SpringEnergy spring_energy() const override { return chain_.spring_energy(); }
@@ -207,12 +207,12 @@ Snapshot RunObserver::snapshot(double time) const {
   const Sites& sites = seen ? static_cast<const Sites&>(*seen) : chain_;
   const std::vector<double> velocities = add_profile(sites, s, time);
   add_origin(sites, s, time);
-  const Totals now = totals(chain_);
+  const Totals& now = totals_now();
   if (static_cast<double>(now.dislocations) >
       most_dislocations_a_site * static_cast<double>(chain_.problem().grid.sites))
     throw NumericsError("The chain diverged: more than " + digits(most_dislocations_a_site) +
                         " dislocations per site at t = " + digits(time));
-  find_fronts(s, velocities);
+  find_fronts(s, now, velocities);
   if (!chain_.problem().substrate) s.energy.phonons = none;  // no trains to compare with
   add_energy(s, now);
   add_sites(s, time);
@@ -342,14 +342,22 @@ void RunObserver::add_sites(Snapshot& s, double time) const {
   output::sort(s.dislocations);
 }
 
+/// (all) The totals of the present step, which a snapshot and the checks of a run both need.
+const Totals& RunObserver::totals_now() const {
+  if (!totals_ || totals_->time != chain_.time()) totals_ = totals(chain_);
+  return *totals_;
+}
+
 /// Finds fronts in the profile, and the leading front also from the outermost dislocation if one side is empty.
-void RunObserver::find_fronts(Snapshot& s, const std::vector<double>& velocities) const {
+void RunObserver::find_fronts(Snapshot& s, const Totals& now, const std::vector<double>& velocities) const {
   s.fronts = {none, none, none, none, none};
   const double stress_left = scaled_.stress(scaled_.left), stress_right = scaled_.stress(scaled_.right);
   const bool stressed_left = stress_left >= stress_right;
   if (std::fmin(stress_left, stress_right) == 0) {
-    const auto all = chain::dislocations(chain_);
-    if (!all.empty()) s.fronts.leading = (stressed_left ? all.back() : all.front()).x / scaled_.scale;
+    if (const std::optional<std::size_t> site = stressed_left ? now.last_site : now.first_site) {
+      const std::vector<Dislocation> found = dislocations_after(chain_, *site, chain_.time());
+      s.fronts.leading = (stressed_left ? found.back() : found.front()).x / scaled_.scale;
+    }
   }
   // We seek no front where an end cuts the window, because such an average contains phonons that a whole window would
   // average out.
@@ -390,7 +398,7 @@ double RunObserver::pore_pressure_at_origin() const {
 }
 
 Balance RunObserver::balance() const {
-  const Totals now = totals(chain_);
+  const Totals& now = totals_now();
   const Flows flows = chain_.flows();
   const double gone = flows.dissipated + flows.outflow;
   const double all =

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "lattice/chain/observe/averages.hpp"
@@ -72,7 +73,8 @@ class RunObserver {
   void add_origin(const Sites& sites, output::Snapshot& snapshot, double time) const;
   void add_energy(output::Snapshot& snapshot, const Totals& now) const;
   void add_sites(output::Snapshot& snapshot, double time) const;
-  void find_fronts(output::Snapshot& snapshot, const std::vector<double>& velocities) const;
+  const Totals& totals_now() const;
+  void find_fronts(output::Snapshot& snapshot, const Totals& now, const std::vector<double>& velocities) const;
   double contact_at(double x) const;
   double pore_pressure_at_origin() const;
 
@@ -89,6 +91,7 @@ class RunObserver {
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;
   long first_dislocations_ = 0;
   double driving_force_ = 0;
+  mutable std::optional<Totals> totals_;  ///< at the last time for which they were needed
   /// Time integral of the velocity at x = 0, averaged over the window of the slip. Its first sample is at t = 0.
   output::SampledIntegral slip_{.samples = -1};
 };

@@ -6,6 +6,7 @@
 #include "exact_chains.hpp"
 #include "lattice/chain/explicit/explicit_chain.hpp"
 #include "lattice/chain/observe/averages.hpp"
+#include "lattice/chain/observe/totals.hpp"
 #include "slipfront/text/output/dislocation_paths.hpp"
 
 namespace {
@@ -116,6 +117,33 @@ TEST(Dislocations, KeepTheirNumbersAroundARing) {
   const auto snapshots = snapshots_of({{{1, 1, 1}, {6, 1, 0}}, {{4, 1, 1}, {9, 1, 0}}, {{2, 1, 2}, {7, 1, 1}}}, 3);
   const auto paths = output::dislocation_paths(snapshots, {.ring_length = 10});
   EXPECT_EQ(paths.numbers, (Numbers{{0, 1}, {0, 1}, {1, 0}}));
+}
+
+/// The outermost dislocations are where the totals say, also exactly on a site and on the seam of a ring.
+TEST(Dislocations, AreOutermostWhereTotalsSay) {
+  using namespace slipfront::chain;
+  for (const double place : {0.0, 0.1, -0.13, 19.9, 19.99})
+    for (const int sign : {1, -1}) {
+      Problem p{.grid = {-20, 0.2, 200}, .boundary = {}, .friction = {}, .forcing = {}, .contact = {}};
+      p.boundary = {.periodic = true, .charge = 3 * sign};
+      Motion start;
+      for (std::size_t j = 0; j < p.grid.sites; ++j) {
+        double u = 0;  // a sum of kinks and of their images around the ring
+        for (const double x : {place, place - 10, place - 25})
+          for (int around = -3; around <= 3; ++around) u += 4 * std::atan(std::exp(x + 40 * around - p.grid.x(j)));
+        start.u.push_back(sign * u);
+      }
+      const ExplicitChain chain(p, start);
+      const Totals t = totals(chain);
+      const auto all = dislocations(chain);
+      EXPECT_EQ(t.dislocations, static_cast<long>(all.size()));
+      ASSERT_TRUE(t.first_site && t.last_site) << place;
+      const auto first = dislocations_after(chain, *t.first_site, chain.time()),
+                 last = dislocations_after(chain, *t.last_site, chain.time());
+      ASSERT_FALSE(first.empty() || last.empty()) << place;
+      EXPECT_EQ(first.front().x, all.front().x) << place;
+      EXPECT_EQ(last.back().x, all.back().x) << place;
+    }
 }
 
 }  // namespace

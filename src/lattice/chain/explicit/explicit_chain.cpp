@@ -9,6 +9,7 @@
 #include "lattice/chain/explicit/share.hpp"
 #include "lattice/chain/model/initial_train.hpp"
 #include "math/constants.hpp"
+#include "math/simd/vector_code.hpp"
 #include "slipfront/error.hpp"
 #include "system/archive.hpp"
 
@@ -323,11 +324,7 @@ Displaced displaced(const RankSites& share, std::size_t from, std::size_t to) {
   const std::size_t wide = reach + (to - from) + beside + more_right, room = wide + 4 * lanes;
   const auto column = [room] { return std::vector<double>(room); };
   Displaced d{static_cast<long>(from) - static_cast<long>(reach), wide, column(), column(), column()};
-  for (std::size_t j = 0; j < wide; ++j) {
-    const auto [now, old] = share.site(d.low + static_cast<long>(j));
-    d.now[j + lanes] = now;
-    d.old[j + lanes] = old;
-  }
+  share.copy_levels(d.low, wide, d.old.data() + lanes, d.now.data() + lanes);
   compute_next(share.forces(), d);
   const auto at = [&](long j) { return static_cast<std::size_t>(j - d.low) + lanes; };
   if (absorbs_left) d.next[at(0)] = ends.absorbing_left.step(&d.now[at(0)], &d.next[at(0)]).next;
@@ -342,7 +339,7 @@ struct ThreeLevels {
     const ContactField& changing = share.forces().contacts();
     const double *a2 = share.forces().a2(low), *a2_old = changing.acts() ? changing.before(low) : a2,
                  *a2_next = changing.acts() ? changing.next(low) : a2;
-    const PeriodicForce sine = substrate_force(0);
+    const PeriodicForce& sine = share.forces().sine();
     const double eps = share.scheme().eps;
     displacements(sine, eps, a2_old, d.old.data() + lanes, u_old.data(), S_old.data(), d.wide);
     displacements(sine, eps, a2, d.now.data() + lanes, u_now.data(), S_now.data(), d.wide);
@@ -354,37 +351,79 @@ struct ThreeLevels {
   std::vector<double> u_old, u_now, u_next, S_old, S_now, S_next;
 };
 
+/// The loops over the sites of a window, by `tau` after the present level.
+struct WindowLoops {
+  double dt, h, tau, C;
+  std::size_t size;
+  const double *u_old, *u_now, *u_next, *S_old, *S_next;  ///< at the first site; five more on either side of the window
+
+  /// u and u_t. `F_t` is the rate of change of the force, in turns.
+  void extrapolate(const double* F_t, double* u, double* velocity) const;
+  void stress(Model model, double* stress) const;
+};
+
+SLIPFRONT_CLONES void WindowLoops::extrapolate(const double* F_t, double* u, double* velocity) const {
+  const WindowLoops l = *this;
+  const double per_step = 1 / (2 * l.dt), per_dt2 = 1 / (l.dt * l.dt), per_h2 = 1 / (l.h * l.h);
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < l.size; ++j) {
+    const auto rate = [&l, per_step, j ](long i) __attribute__((always_inline)) {
+      const std::size_t at = j + static_cast<std::size_t>(i);
+      return (l.u_next[at] - l.u_old[at]) * per_step;
+    };
+    const double acceleration = (l.u_next[j] - 2 * l.u_now[j] + l.u_old[j]) * per_dt2;
+    // u_ttt from the equation of motion: what the central difference needs to be of fourth order.
+    const double jerk = (rate(1) - 2 * rate(0) + rate(-1)) * per_h2 - (l.S_next[j] - l.S_old[j]) * per_step -
+                        l.C * acceleration + F_t[j];
+    const double v = rate(0) - l.dt * l.dt / 6 * jerk;
+    u[j] = turn * (l.u_now[j] + l.tau * (v + l.tau / 2 * (acceleration + l.tau / 3 * jerk)));
+    velocity[j] = turn * (v + l.tau * (acceleration + l.tau / 2 * jerk));
+  }
+}
+
+/// -h u_x from the differences of u at the neighbours at a distance of one, two and three sites.
+[[gnu::always_inline]] inline double fall(const double* u, Model model) {
+  if (model == Model::lattice) return (u[-1] - u[1]) / 2;
+  return (45 * (u[-1] - u[1]) - 9 * (u[-2] - u[2]) + (u[-3] - u[3])) / 60;
+}
+
+SLIPFRONT_CLONES void WindowLoops::stress(Model model, double* stress) const {
+  const WindowLoops l = *this;
+  const double ahead = l.tau / (2 * l.dt), factor = turn / l.h;
+  const Model kind = model;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < l.size; ++j)
+    stress[j] = factor * (fall(l.u_now + j, kind) + ahead * (fall(l.u_next + j, kind) - fall(l.u_old + j, kind)));
+}
+
 }  // namespace
 
 Window window_of(const RankSites& share, std::size_t from, std::size_t to, double time) {
   const Problem& p = share.problem();
-  const double dt = share.scheme().dt, h = share.scheme().h, tau = time - share.time();
+  const Forces& forces = share.forces();
   const ThreeLevels v(share, displaced(share, from, to));
-  const double C = p.friction.linear_coefficient().value_or(0);
-  const ContactField& contacts = share.forces().contacts();
-  const auto rate = [&](std::size_t j) { return (v.u_next[j] - v.u_old[j]) / (2 * dt); };
-  const auto stress = [&](const std::vector<double>& u, std::size_t j) {
-    if (p.model == Model::lattice) return (u[j - 1] - u[j + 1]) / (2 * h);
-    return (45 * (u[j - 1] - u[j + 1]) - 9 * (u[j - 2] - u[j + 2]) + (u[j - 3] - u[j + 3])) / (60 * h);
-  };
-  Window window;
-  window.begin = from;
-  for (std::size_t site = from; site < to; ++site) {
-    const std::size_t j = v.at(site);
-    const double acceleration = (v.u_next[j] - 2 * v.u_now[j] + v.u_old[j]) / (dt * dt);
-    // u_ttt from the equation of motion: what the central difference needs to be of fourth order.
-    const double jerk = (rate(j + 1) - 2 * rate(j) + rate(j - 1)) / (h * h) - (v.S_next[j] - v.S_old[j]) / (2 * dt) -
-                        C * acceleration + share.forces().rate(static_cast<long>(site)) / turn;
-    const double velocity = rate(j) - dt * dt / 6 * jerk;
-    const double stress_rate = (stress(v.u_next, j) - stress(v.u_old, j)) / (2 * dt);
-    window.x.push_back(p.grid.x(site));
-    window.u.push_back(turn * (v.u_now[j] + tau * (velocity + tau / 2 * (acceleration + tau / 3 * jerk))));
-    window.velocity.push_back(turn * (velocity + tau * (acceleration + tau / 2 * jerk)));
-    window.stress.push_back(turn * (stress(v.u_now, j) + tau * stress_rate));
-    const double* a2 = share.forces().a2(static_cast<long>(site));
-    window.contact_squared.push_back(a2 == nullptr ? 1 : *a2);
-    window.effective_stress.push_back(contacts.acts() ? *contacts.share(static_cast<long>(site)) : 1);
-  }
+  const std::size_t size = to - from, at = v.at(from);
+  const auto column = [size](double value) { return std::vector<double>(size, value); };
+  Window window{from, column(0), column(0), column(0), column(0), column(1), column(1)};
+  const WindowLoops loops{.dt = share.scheme().dt,
+                          .h = share.scheme().h,
+                          .tau = time - share.time(),
+                          .C = p.friction.linear_coefficient().value_or(0),
+                          .size = size,
+                          .u_old = &v.u_old[at],
+                          .u_now = &v.u_now[at],
+                          .u_next = &v.u_next[at],
+                          .S_old = &v.S_old[at],
+                          .S_next = &v.S_next[at]};
+  std::vector<double> F_t = column(0);
+  if (!forces.steady())
+    for (std::size_t j = 0; j < size; ++j) F_t[j] = forces.rate(static_cast<long>(from + j)) / turn;
+  loops.extrapolate(F_t.data(), window.u.data(), window.velocity.data());
+  loops.stress(p.model, window.stress.data());
+  for (std::size_t j = 0; j < size; ++j) window.x[j] = p.grid.x(from + j);
+  const auto first = static_cast<long>(from);
+  if (const double* a2 = forces.a2(first)) std::copy_n(a2, size, window.contact_squared.begin());
+  if (forces.contacts().acts()) std::copy_n(forces.contacts().share(first), size, window.effective_stress.begin());
   // A fixed end stays at its displacement: the equation of motion above does not contain the force that holds it.
   const auto hold = [&](std::size_t site) {
     window.u[site - from] = turn * v.u_now[v.at(site)];

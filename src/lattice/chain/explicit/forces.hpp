@@ -204,6 +204,8 @@ class Forces {
     chain::displacements(scheme_.rule.f, scheme_.eps, coefficients, z, u, begin, end);
   }
   double eps() const { return scheme_.eps; }
+  /// The force of the substrate as a function of u.
+  const PeriodicForce& sine() const { return sine_; }
   const Scheme& scheme() const { return scheme_; }
   bool phases_of_32_bits() const { return problem_.phases_of_32_bits; }
   /// Energies, divided by the spacing, that contacts give to the substrate at `size` sites from site j on. The step D

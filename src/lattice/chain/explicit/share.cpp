@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <tuple>
 
 #include "lattice/chain/model/initial_train.hpp"
 #include "math/digits.hpp"
@@ -218,6 +219,7 @@ void RankSites::check_numbers() const {
   }
 }
 
+/// Site j, now and at the level before.
 std::pair<double, double> RankSites::site(long j) const {
   const long n = static_cast<long>(problem_.grid.sites);
   double now_shift = 0, old_shift = 0, sign = 1;
@@ -241,6 +243,24 @@ std::pair<double, double> RankSites::site(long j) const {
   while (i + 1 < slabs_.size() && j >= static_cast<long>(slabs_[i + 1].begin())) ++i;
   const long k = j - static_cast<long>(slabs_[i].begin());
   return {sign * slabs_[i].now()[k] + now_shift, sign * slabs_[i].old()[k] + old_shift};
+}
+
+void RankSites::copy_levels(long first, std::size_t size, double* before, double* now) const {
+  const long end = first + static_cast<long>(size);
+  const auto copy = [&](long from, long to) {
+    for (long j = from; j < to; ++j) std::tie(now[j - first], before[j - first]) = site(j);
+  };
+  long at = first;
+  for (const Slab& slab : slabs_) {
+    const long from = static_cast<long>(slab.begin()), to = std::min(end, from + static_cast<long>(slab.size()));
+    copy(at, std::min(from, end));
+    if (from > at) at = std::min(from, end);
+    if (at >= to) continue;
+    std::copy_n(slab.now() + (at - from), to - at, now + (at - first));
+    std::copy_n(slab.old() + (at - from), to - at, before + (at - first));
+    at = to;
+  }
+  copy(at, end);
 }
 
 Levels RankSites::levels(std::size_t begin, std::size_t end) const {

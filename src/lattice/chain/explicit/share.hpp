@@ -45,9 +45,9 @@ class RankSites {
   /// (all) Gets the halos from neighbours, also around a periodic chain. Values from across its seam are not changed by
   /// the turns of its charge.
   void exchange();
-  /// z / 2 pi of site j, now and at the level before. The site may be past an end or, after an exchange, in the halo of
-  /// this rank.
-  std::pair<double, double> site(long j) const;
+  /// Copies z / 2 pi of `size` sites from site `first` on, now and at the level before. The sites may be past an end
+  /// or, after an exchange, in the halo of this rank.
+  void copy_levels(long first, std::size_t size, double* before, double* now) const;
 
   /// The levels of those sites of [begin, end) that this rank has.
   Levels levels(std::size_t begin, std::size_t end) const;
@@ -58,6 +58,7 @@ class RankSites {
 
  private:
   std::vector<double> flow_sums(const std::vector<double>& mine) const;
+  std::pair<double, double> site(long j) const;
   void check_execution() const;
   void add_potential(double strength, std::vector<double>& energies) const;
   void make_slabs();

@@ -135,15 +135,14 @@ namespace {
 
 /// (all) Joins the windows of all ranks, in one message.
 void join(const Ranks& ranks, Window& window) {
-  const std::array columns{
-      &window.x, &window.u, &window.velocity, &window.stress, &window.contact_squared, &window.effective_stress};
   std::vector<double> mine;
   for (std::size_t j = 0; j < window.x.size(); ++j)
-    for (const std::vector<double>* column : columns) mine.push_back((*column)[j]);
+    for (const auto column : Window::columns) mine.push_back((window.*column)[j]);
   const std::vector<double> all = ranks.joined(mine);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    columns[i]->clear();
-    for (std::size_t at = i; at < all.size(); at += columns.size()) columns[i]->push_back(all[at]);
+  for (std::size_t i = 0; i < std::size(Window::columns); ++i) {
+    std::vector<double>& column = window.*Window::columns[i];
+    column.clear();
+    for (std::size_t at = i; at < all.size(); at += std::size(Window::columns)) column.push_back(all[at]);
   }
 }
 

@@ -17,18 +17,25 @@ namespace slipfront::chain {
 namespace {
 
 /// u / 2 pi - 1/2: dislocations are at whole numbers.
-std::vector<double> turns(std::vector<double> u) {
-  for (double& v : u) v = v / (2 * std::numbers::pi) - 0.5;
+std::vector<double> levels_of(std::vector<double> u) {
+  for (double& v : u) v = v / turn - 0.5;
   return u;
 }
 
-/// Adds those between values j and j + 1 of `turns`; value 0 is at x.
-void find(const std::vector<double>& turns, std::size_t j, double x, double h, std::vector<Dislocation>& found) {
-  const double a = turns[j], b = turns[j + 1];
-  const int sign = a > b ? 1 : -1;
+/// The first of the sites, as many as `sites_beside`, whose interpolation gives the place of a dislocation after site j
+/// of n. They do not depend on the window that a caller has.
+constexpr std::size_t sites_beside = 8;
+std::size_t first_next_to(std::size_t j, std::size_t n) {
+  return std::min(j < 3 ? 0 : j - 3, n < sites_beside ? 0 : n - sites_beside);
+}
+
+/// Adds those between values j and j + 1 of `levels`; value 0 is at x.
+void find(std::span<const double> levels, std::size_t j, double x, double h, std::vector<Dislocation>& found) {
+  const double from = std::floor(levels[j]), to = std::floor(levels[j + 1]);
+  const int sign = from > to ? 1 : -1;
   // Between two sites u passes more than one whole number only on a lattice of dislocations that are narrower than A.
-  for (double level = sign > 0 ? std::ceil(a) - 1 : std::floor(a) + 1; sign * (level - b) >= 0; level -= sign) {
-    const auto is_before = [&](double at) { return sign * (interpolated(turns, at) - level) > 0; };
+  for (double level = sign > 0 ? from : from + 1; sign > 0 ? level > to : level <= to; level -= sign) {
+    const auto is_before = [&](double at) { return sign * (interpolated(levels, at) - level) > 0; };
     const auto site = static_cast<double>(j);
     const double at = bisected({.holding = site, .failing = site + 1}, is_before, 50).holding;
     found.push_back({x + h * at, sign, std::lround(level)});
@@ -50,26 +57,33 @@ std::vector<Dislocation> joined(const Ranks& ranks, const std::vector<Dislocatio
 
 }  // namespace
 
-std::vector<Dislocation> dislocations(const Sites& chain, double time) {
+std::vector<Dislocation> dislocations_after(const Sites& chain, std::size_t j, double time) {
   const Problem& p = chain.problem();
-  const Grid& grid = p.grid;
+  const std::size_t n = p.grid.sites;
+  const bool seam = p.boundary.periodic && j + 1 == n;
+  const std::size_t first = seam ? n - 4 : first_next_to(j, n);
+  std::vector<double> u = chain.window(first, std::min(first + sites_beside, n), time).u;
+  if (seam)
+    for (const double v : chain.window(0, 4, time).u) u.push_back(v - turn * static_cast<double>(p.boundary.charge));
   std::vector<Dislocation> found;
-  for_own_sites(
-      chain,
-      [&](std::size_t begin, std::size_t end) {
-        const std::size_t first = begin < 3 ? 0 : begin - 3, last = std::min(end + 4, grid.sites);
-        const std::vector<double> values = turns(chain.own_window(first, last, time).u);
-        for (std::size_t j = begin; j < std::min(end, grid.sites - 1); ++j)
-          find(values, j - first, grid.x(first), grid.spacing, found);
-      },
-      [] {});
+  find(levels_of(u), j - first, p.grid.x(first), p.grid.spacing, found);
+  return found;
+}
+
+std::vector<Dislocation> dislocations(const Sites& chain, double time) {
+  const Grid& grid = chain.problem().grid;
+  std::vector<Dislocation> found;
+  for_own_blocks(chain, 4, time, [&](const Window& w, std::size_t begin, std::size_t end) {
+    const std::vector<double> levels = levels_of(w.u);
+    for (std::size_t j = begin; j < std::min(end, grid.sites - 1); ++j) {
+      const std::size_t first = first_next_to(j, grid.sites), size = std::min(sites_beside, grid.sites);
+      find(std::span(levels).subspan(first - w.begin, size), j - first, grid.x(first), grid.spacing, found);
+    }
+  });
   found = joined(chain.ranks(), found);
-  if (p.boundary.periodic) {  // between the last site and the first
-    std::vector<double> values = turns(chain.window(grid.sites - 3, grid.sites, time).u);
-    for (const double v : turns(chain.window(0, 3, time).u))
-      values.push_back(v - static_cast<double>(p.boundary.charge));
-    find(values, 2, grid.x(grid.sites - 3), grid.spacing, found);
-  }
+  if (!chain.problem().boundary.periodic) return found;
+  const std::vector<Dislocation> last = dislocations_after(chain, grid.sites - 1, time);
+  found.insert(found.end(), last.begin(), last.end());
   return found;
 }
 
@@ -77,13 +91,10 @@ std::vector<Dislocation> dislocations(const Sites& chain) { return dislocations(
 
 std::vector<double> displacements(const Sites& chain, double time) {
   std::vector<double> mine;
-  for_own_sites(
-      chain,
-      [&](std::size_t begin, std::size_t end) {
-        const std::vector<double> u = chain.own_window(begin, end, time).u;
-        mine.insert(mine.end(), u.begin(), u.end());
-      },
-      [] {});
+  for_own_blocks(chain, 0, time, [&](const Window& w, std::size_t begin, std::size_t end) {
+    const double* const u = w.u.data() + (begin - w.begin);
+    mine.insert(mine.end(), u, u + (end - begin));
+  });
   return chain.ranks().joined_at_first(mine);
 }
 

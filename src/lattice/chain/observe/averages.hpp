@@ -22,20 +22,25 @@ std::vector<Dislocation> dislocations(const Sites& chain);
 /// (all) u of all sites at `time`. Only rank 0 gets them.
 std::vector<double> displacements(const Sites& chain, double time);
 
-/// (all) Calls measure(begin, end) for this rank's sites in order, some 16 384 at a time, in ranges that depend only
-/// on the number of sites, and done() after every block.
-template <class Measure, class Done>
-void for_own_sites(const Sites& chain, const Measure& measure, const Done& done) {
-  constexpr std::size_t range = 16384;
+/// (all) Those between site j and the next, which around a ring may be the first.
+std::vector<Dislocation> dislocations_after(const Sites& chain, std::size_t j, double time);
+
+/// (all) Calls measure(window, begin, end) for each block of this rank, in order. The window has its sites [begin, end)
+/// at `time`, and `beside` more on either side as far as there are.
+template <class Measure>
+void for_own_blocks(const Sites& chain, std::size_t beside, double time, const Measure& measure) {
+  constexpr std::size_t most = 2048;  // sites of a window, which stay in the cache, or one block
   const Ranks& ranks = chain.ranks();
   const Blocks blocks{chain.problem().grid.sites};
+  const std::size_t end = blocks.first_of(ranks.rank() + 1, ranks.size());
   chain.exchange();
-  for (std::size_t block = blocks.first_of(ranks.rank(), ranks.size());
-       block < blocks.first_of(ranks.rank() + 1, ranks.size()); ++block) {
-    const std::size_t end = blocks.begin(block + 1);
-    for (std::size_t begin = blocks.begin(block); begin < end; begin += range)
-      measure(begin, std::min(begin + range, end));
-    done();
+  for (std::size_t block = blocks.first_of(ranks.rank(), ranks.size()); block < end;) {
+    const std::size_t first = blocks.begin(block);
+    std::size_t after = block + 1;
+    while (after < end && blocks.begin(after + 1) - first <= most) ++after;
+    const Window window = chain.own_window(first < beside ? 0 : first - beside,
+                                           std::min(blocks.begin(after) + beside, blocks.sites), time);
+    for (; block < after; ++block) measure(window, blocks.begin(block), blocks.begin(block + 1));
   }
 }
 

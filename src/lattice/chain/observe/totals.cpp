@@ -19,12 +19,16 @@ std::array<double*, sums> summed(Totals& t, double& dislocations) {
   return {&t.kinetic, &t.elastic, &t.substrate, &t.momentum, &dislocations};
 }
 
+/// The number of dislocations to the right of a displacement u, if there are none at the left.
+double level(double u) { return std::floor(u / turn - 0.5); }
+
 /// Adds sites [begin, end), seen in a window that has two more on either side where there are.
 void add(const Sites& chain, const Window& w, std::size_t begin, std::size_t end, Totals& t, double& dislocations) {
   const Problem& p = chain.problem();
   const double h = p.grid.spacing;
   const std::size_t n = p.grid.sites, low = w.begin;
   const auto u = [&](std::size_t j) { return w.u[j - low]; };
+  double next_level = level(u(begin));
   for (std::size_t j = begin; j < end; ++j) {
     const double weight = (j == 0 || j + 1 == n) && !p.boundary.periodic ? h / 2 : h;
     const double velocity = w.velocity[j - low], cosine = std::cos(u(j));
@@ -33,8 +37,13 @@ void add(const Sites& chain, const Window& w, std::size_t begin, std::size_t end
     t.momentum += weight * velocity * w.stress[j - low];
     t.elastic += h * elastic_energy(u, j, n, h, p.model);
     if (j + 1 >= n) continue;
-    dislocations += std::fabs(std::floor(u(j + 1) / turn - 0.5) - std::floor(u(j) / turn - 0.5));
+    const double passed = std::fabs(level(u(j + 1)) - next_level);
+    next_level = level(u(j + 1));
     t.steepest = std::fmax(t.steepest, std::fabs(u(j + 1) - u(j)));
+    if (!(passed > 0)) continue;
+    dislocations += passed;
+    t.last_site = j;
+    if (!t.first_site) t.first_site = j;
   }
 }
 
@@ -43,8 +52,21 @@ void close_ring(const Problem& p, double first, double last, Totals& t, double& 
   const double rise = first - turn * static_cast<double>(p.boundary.charge) - last;
   t.elastic += rise * rise / (2 * p.grid.spacing);
   t.steepest = std::fmax(t.steepest, std::fabs(rise));
-  dislocations += std::fabs(std::floor((last + rise) / turn - 0.5) - std::floor(last / turn - 0.5));
+  const double passed = std::fabs(level(last + rise) - level(last));
+  dislocations += passed;
+  if (passed > 0) t.last_site = p.grid.sites - 1;
+  if (!t.first_site) t.first_site = t.last_site;
   t.charge = static_cast<double>(p.boundary.charge);
+}
+
+/// (all) The first and the last site of all ranks.
+void join_sites(const Ranks& ranks, const Totals& own, Totals& t) {
+  std::vector<double> mine;
+  if (own.first_site) mine = {static_cast<double>(*own.first_site), static_cast<double>(*own.last_site)};
+  const std::vector<double> all = ranks.joined(mine);
+  if (all.empty()) return;
+  t.first_site = static_cast<std::size_t>(all.front());
+  t.last_site = static_cast<std::size_t>(all.back());
 }
 
 }  // namespace
@@ -55,17 +77,13 @@ Totals totals(const Sites& chain) {
   Totals block, t;
   double found = 0, all_found = 0;
   std::vector<double> blocks;  // block by block; added up in order whatever the ranks
-  for_own_sites(
-      chain,
-      [&](std::size_t begin, std::size_t end) {
-        const Window w = chain.own_window(begin < 2 ? 0 : begin - 2, std::min(end + 2, n), chain.time());
-        add(chain, w, begin, end, block, found);
-      },
-      [&] {
-        for (double* sum : summed(block, found)) blocks.push_back(std::exchange(*sum, 0.0));
-      });
+  for_own_blocks(chain, 2, chain.time(), [&](const Window& w, std::size_t begin, std::size_t end) {
+    add(chain, w, begin, end, block, found);
+    for (double* sum : summed(block, found)) blocks.push_back(std::exchange(*sum, 0.0));
+  });
   blocks = chain.ranks().joined(blocks);
   for (const double steepest : chain.ranks().joined({block.steepest})) t.steepest = std::fmax(t.steepest, steepest);
+  join_sites(chain.ranks(), block, t);
   for (std::size_t i = 0; i < blocks.size(); ++i) *summed(t, all_found)[i % sums] += blocks[i];
   const double first = chain.window(0, 1).u[0], last = chain.window(n - 1, n).u[0];
   t.time = chain.time();

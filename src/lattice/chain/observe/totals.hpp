@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "slipfront/lattice/chain/chain.hpp"
 #include "slipfront/lattice/chain/problem.hpp"
@@ -37,6 +38,8 @@ struct Totals {
   double loading = 0;     ///< energy of the springs that load the chain (Loading)
   double momentum = 0;    ///< sum of -u_t u_x
   double steepest = 0;    ///< largest difference of u between neighbours
+  /// The first and the last of the sites between which and the next there are dislocations.
+  std::optional<std::size_t> first_site, last_site;
   double energy() const { return kinetic + elastic + substrate + loading; }
 };
 
