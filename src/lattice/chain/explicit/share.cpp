@@ -85,9 +85,9 @@ void RankSites::make_slabs() {
   const auto threads = static_cast<std::size_t>(execution_.threads);
   const std::size_t cached = (execution_.tile + 2 * halo) * Sweep::usual_bytes / Sweep::bytes(forces_, meter_);
   execution_.tile = std::max(cached, 4 * halo) - 2 * halo;
-  // Sites that move can take several times as long as those at rest, and be at one side. So each thread gets several
-  // slabs, of a tile or more.
-  constexpr std::size_t each = 8;
+  // With friction of an implicit speed, sites that move can take several times as long as those at rest, and be at one
+  // side. Then each thread gets several slabs, of a tile or more.
+  const std::size_t each = forces_.implicit_speed() ? 8 : 1;
   const std::size_t tiles = (end_ - begin_) / execution_.tile, most = std::clamp(tiles, threads, each * threads);
   const std::size_t count = threads == 1 ? 1 : std::clamp<std::size_t>(whole, 1, most);
   for (std::size_t i = 0; i < count; ++i) {
