@@ -60,30 +60,16 @@ void ForcingInTime::call_formula(long level) {
   double *const before = terms_[0].data(), *const now = terms_[1].data(), *const next = terms_[2].data();
   for (std::size_t j = 0; level == 0 && j < x_.size(); ++j) before[j] += 3 * now[j] - 3 * next[j];
   called_ = level;
-  find_sums_of_neighbours();
 }
 
 void ForcingInTime::resize_terms(std::size_t count) {
-  for (auto* arrays : {&terms_, &sums_of_neighbours_}) {
-    while (arrays->size() < count) arrays->emplace_back(x_.size());
-    arrays->resize(count);
-  }
-}
-
-void ForcingInTime::find_sums_of_neighbours() {
-  for (std::size_t s = 0; s < terms_.size(); ++s) {
-    const double* const X = terms_[s].data();
-    double* const sums = sums_of_neighbours_[s].data();
-    for (std::size_t j = 1; j + 1 < x_.size(); ++j) sums[j] = X[j - 1] + X[j + 1];
-  }
+  while (terms_.size() < count) terms_.emplace_back(x_.size());
+  terms_.resize(count);
 }
 
 ForceTerms ForcingInTime::terms(std::size_t site) const {
   ForceTerms F{.count = terms_.size()};
-  for (std::size_t s = 0; s < F.count; ++s) {
-    F.X[s] = terms_[s].data() + site;
-    F.sums_of_neighbours[s] = sums_of_neighbours_[s].data() + site;
-  }
+  for (std::size_t s = 0; s < F.count; ++s) F.X[s] = terms_[s].data() + site;
   return F;
 }
 
@@ -93,9 +79,16 @@ double ForcingInTime::operator()(std::size_t site, long levels_after) const {
   return sum;
 }
 
-double ForcingInTime::time_of(std::size_t i) const {
-  const auto from = static_cast<double>(std::max(begin_ - 2, 0L)), end = static_cast<double>(end_);
-  return 0.5 * (from + end) + 0.5 * (end - from) * node(i, nodes);
+/// Chooses levels [begin, end), and the nodes in them.
+void ForcingInTime::choose_levels(long begin, long end) {
+  begin_ = begin;
+  end_ = end;
+  const auto from = static_cast<double>(std::max(begin - 2, 0L)), until = static_cast<double>(end);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    level_of_node_[i] = 0.5 * (from + until) + 0.5 * (until - from) * node(i, nodes);
+    const double angle = std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(nodes);
+    barycentric_[i] = (i % 2 == 0 ? 1 : -1) * std::sin(angle);
+  }
 }
 
 /// The weights of the values at the nodes in the value at a level, by the barycentric formula.
@@ -103,14 +96,13 @@ ForcingInTime::NodeWeights ForcingInTime::of_nodes(double level) const {
   NodeWeights weight{};
   double sum = 0;
   for (std::size_t i = 0; i < nodes; ++i) {
-    const double away = level - time_of(i);
+    const double away = level - level_of_node_[i];
     if (away == 0) {
       weight.fill(0);
       weight[i] = 1;
       return weight;
     }
-    const double angle = std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(nodes);
-    weight[i] = (i % 2 == 0 ? 1 : -1) * std::sin(angle) / away;
+    weight[i] = barycentric_[i] / away;
     sum += weight[i];
   }
   for (double& w : weight) w /= sum;
@@ -128,10 +120,9 @@ ForceTerms::Weights ForcingInTime::of_terms(double level) const {
 /// Takes the longest polynomial that is right. Its levels begin at a multiple of their number, whatever came before.
 void ForcingInTime::choose(long level, const Ranks& ranks) {
   for (long levels = longest; levels >= shortest; levels /= 2) {
-    begin_ = level / levels * levels;
-    end_ = begin_ + levels;
+    choose_levels(level / levels * levels, level / levels * levels + levels);
     polynomial_ = fits(ranks) && decompose(ranks);
-    if (polynomial_) return find_sums_of_neighbours();
+    if (polynomial_) return;
   }
 }
 
@@ -176,7 +167,7 @@ void ForcingInTime::fill(std::size_t stride) {
   for (std::size_t i = 0; i < nodes; ++i) {
     values_[i].resize(x_.size());
     for (std::size_t j = 0; j < x_.size(); j += stride) {
-      values_[i][j] = formula(j, time_of(i));
+      values_[i][j] = formula(j, level_of_node_[i]);
       most_ = std::max(most_, std::fabs(values_[i][j]));
     }
   }

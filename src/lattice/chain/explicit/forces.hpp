@@ -116,7 +116,7 @@ class ForcingInTime {
   using NodeWeights = std::array<double, nodes>;
 
   double formula(std::size_t site, double level) const { return forcing_(x_[site], level * dt_); }
-  double time_of(std::size_t node) const;
+  void choose_levels(long begin, long end);
   NodeWeights of_nodes(double level) const;
   ForceTerms::Weights of_terms(double level) const;
   void call_formula(long level);
@@ -128,7 +128,6 @@ class ForcingInTime {
   /// (all) Whether ForceTerms::most terms are enough.
   bool decompose(const Ranks& ranks);
   void resize_terms(std::size_t count);
-  void find_sums_of_neighbours();
   /// Sites between those that are compared at a level.
   std::size_t apart() const { return static_cast<std::size_t>(std::min(end_ - begin_, 1024L)); }
 
@@ -137,11 +136,12 @@ class ForcingInTime {
   double dt_ = 0;
   long begin_ = 0, end_ = 0;  ///< levels of the present polynomial, or of the present calls of the formula
   bool polynomial_ = false;
-  long called_ = -1;  ///< the level around which the terms are calls of the formula
-  double most_ = 0;   ///< largest |F| at the nodes, of all ranks
+  long called_ = -1;                             ///< the level around which the terms are calls of the formula
+  double most_ = 0;                              ///< largest |F| at the nodes, of all ranks
+  NodeWeights level_of_node_{}, barycentric_{};  ///< barycentric_: those of the nodes in the barycentric formula
   std::array<std::vector<double>, nodes> values_;
   std::vector<NodeWeights> nodes_of_terms_;  ///< weights of a term in the values at the nodes
-  std::vector<Aligned> terms_, sums_of_neighbours_;
+  std::vector<Aligned> terms_;
   std::vector<ForceTerms::Weights> weights_;  ///< weights of the terms, at each level from the one before on
 };
 

@@ -137,7 +137,7 @@ std::size_t Sweep::bytes(const Forces& forces, const WorkMeter& meter) {
   if (forces.phases_of_32_bits()) return (3 + measuring) * sizeof(Phase);
   return usual_bytes +
          sizeof(double) * ((forces.has_contact() ? PeriodicForce::terms / 2 : 0) + forces.variables() + measuring +
-                           (forces.implicit_speed() ? 2 : 0) + (meter.needs_step_before() ? 3 : 0));
+                           (forces.implicit_speed() ? 2 : 0) + (meter.needs_step_before() ? 2 : 0));
 }
 
 void Sweep::exchange_states() {

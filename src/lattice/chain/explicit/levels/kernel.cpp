@@ -309,18 +309,17 @@ struct AddDrive {
 
   template <std::size_t n>
   [[gnu::always_inline]] void of(std::size_t first) const {
-    const double *X[n], *Y[n];
+    const double* X[n];
     double c[n], b[n];
     for (std::size_t s = 0; s < n; ++s) {
       X[s] = F.X[first + s];
-      Y[s] = F.sums_of_neighbours[first + s];
       c[s] = own[first + s];
       b[s] = of_neighbours[first + s];
     }
     SLIPFRONT_INDEPENDENT
     for (std::size_t j = 0; j < size; ++j) {
       double sum = next[j];
-      for (std::size_t s = 0; s < n; ++s) sum += c[s] * X[s][j] + b[s] * Y[s][j];
+      for (std::size_t s = 0; s < n; ++s) sum += c[s] * X[s][j] + b[s] * (X[s][j - 1] + X[s][j + 1]);
       next[j] = sum;
     }
   }

@@ -111,16 +111,15 @@ void add_neighbours_and_shorten(double spread, double most, const double* y, con
                                 std::size_t begin, std::size_t end);
 
 /// A force on consecutive sites as a sum of functions X of x, each times a weight that changes from level to level.
-/// `sums_of_neighbours` are the sums of X at both neighbours of each site.
 struct ForceTerms {
   static constexpr std::size_t most = 8;
   using Weights = std::array<double, most>;
 
   std::size_t count = 0;
-  std::array<const double*, most> X = {}, sums_of_neighbours = {};
+  std::array<const double*, most> X = {};
 };
 /// Adds to z at the next level the effect of a force, which is shared among the five points of the diamond: `own` are
-/// the weights of X at the site, `of_neighbours` those at its neighbours.
+/// the weights of X at the site, `of_neighbours` those at its neighbours, one site more on either side.
 void add_drive(const ForceTerms& F, const ForceTerms::Weights& own, const ForceTerms::Weights& of_neighbours,
                double* next, std::size_t size);
 /// Adds `drive`, which is that effect of a force that does not change.
