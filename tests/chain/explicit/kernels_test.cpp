@@ -63,7 +63,7 @@ TEST(ChainKernels, SumOverAllSitesOfTheirBlocks) {
 TEST(ChainKernels, MeasureStepsOfAllSites) {
   const auto u_at = [](std::size_t j, int level) { return std::sin(0.1 * static_cast<double>(j) + 0.7 * level); };
   const auto D_at = [&](std::size_t j, int level) { return u_at(j, level) - u_at(j, level - 1); };
-  for (const auto what : {chains::Measured::absolutes, chains::Measured::squares}) {
+  for (const auto what : {chains::Measured::only_absolutes, chains::Measured::absolutes, chains::Measured::squares}) {
     SomeSums measured;
     std::vector<double> u(room), D(room), next(room);
     for (std::size_t j = 0; j < room; ++j) {

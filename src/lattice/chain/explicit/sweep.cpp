@@ -21,9 +21,10 @@ WorkMeter::WorkMeter(const Problem& p, const Scheme& s, const Blocks& blocks, st
   if (!p.forcing && !p.friction.acts()) return;
   for (std::size_t b = first_block; b <= end_block; ++b) begins_.push_back(blocks.begin(b));
   if (p.friction.acts())
-    of_each_step_ = p.friction.linear_coefficient()  ? Measured::squares
-                    : p.friction.constant_strength() ? Measured::absolutes
-                                                     : Measured::steps;
+    of_each_step_ = p.friction.linear_coefficient()   ? Measured::squares
+                    : !p.friction.constant_strength() ? Measured::steps
+                    : needs_step_before()             ? Measured::absolutes
+                                                      : Measured::only_absolutes;
   else if (!p.steady_forcing)
     of_each_step_ = Measured::steps;
 }
@@ -43,9 +44,8 @@ BlockSums WorkMeter::sums_of(Kind kind, std::vector<double>& energies, std::size
 
 StepOfU WorkMeter::step(std::size_t begin, std::size_t end, std::size_t at) {
   const friction::Friction& f = problem_->friction;
-  const double factor = of_each_step_ == Measured::squares     ? *f.linear_coefficient() / dt_ * turn
-                        : of_each_step_ == Measured::absolutes ? *f.constant_strength()
-                                                               : 0;
+  const double factor =
+      of_each_step_ == Measured::squares ? *f.linear_coefficient() / dt_ * turn : f.constant_strength().value_or(0);
   return {.what = of_each_step_, .to = sums_of(dissipated, sums, begin, end, at), .factor = factor * energy_of_turn_};
 }
 
@@ -133,7 +133,8 @@ Sweep::Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size
 }
 
 std::size_t Sweep::bytes(const Forces& forces, const WorkMeter& meter) {
-  const std::size_t measuring = meter.of_each_step() == Measured::nothing ? 0 : 2;
+  const Measured what = meter.of_each_step();
+  const std::size_t measuring = what == Measured::nothing ? 0 : what == Measured::only_absolutes ? 1 : 2;
   if (forces.phases_of_32_bits()) return (3 + measuring) * sizeof(Phase);
   return usual_bytes +
          sizeof(double) * ((forces.has_contact() ? PeriodicForce::terms / 2 : 0) + forces.variables() + measuring +

@@ -92,15 +92,15 @@ double chosen_step(const Problem& p) { return p.step > 0 ? p.step : chosen(p, la
 double memory_needed(const Problem& p) {
   // Implicit steps store the motion at three times, a step that is tried, and a matrix. Explicit steps store two
   // levels, the initial displacement and the state of friction, and the contact. A steady force has its effect too, one
-  // that changes three levels, eight times of a polynomial, and three more levels at the start. Contacts that change
-  // add the pressure and six numbers each.
+  // that changes its positions, sixteen times of a polynomial and up to eight terms. Contacts that change add the
+  // pressure and six numbers each.
   const auto state = static_cast<double>(p.friction.state_size());
   const bool changes = p.friction.changes_contacts();
   const double by_implicit = 40 + 3 * state + (p.loading.stiffness_at ? 1 : 0) + (p.loading.velocity_at ? 1 : 0);
   const double by_explicit = 3 + state + (p.contact || changes ? 1 : 0) + (changes ? 7 : 0) +
                              (!p.forcing         ? 0
                               : p.steady_forcing ? 2
-                                                 : 15);
+                                                 : 25);
   return static_cast<double>(p.grid.sites) * 8 * (p.implicit ? by_implicit : by_explicit);
 }
 

@@ -90,7 +90,7 @@ template <Measured what>
   if constexpr (what == Measured::nothing) return {};
   const double D = u - step.u[j], B = D - step.D_before[j];
   step.u[j] = u;
-  step.D[j] = D;
+  if constexpr (what != Measured::only_absolutes) step.D[j] = D;
   if constexpr (what == Measured::squares) return {D * D, B * B};
   return {std::fabs(D)};
 }
@@ -173,6 +173,7 @@ template <class Loop>
 [[gnu::always_inline]] inline void as_measured(Measured what, const Loop& loop) {
   if (what == Measured::nothing) return loop.template measuring<Measured::nothing>();
   if (what == Measured::steps) return loop.template measuring<Measured::steps>();
+  if (what == Measured::only_absolutes) return loop.template measuring<Measured::only_absolutes>();
   if (what == Measured::absolutes) return loop.template measuring<Measured::absolutes>();
   loop.template measuring<Measured::squares>();
 }

@@ -73,7 +73,8 @@ struct BlockSums {
 
 /// The measures of the first loop: u at the level that it starts from, in turns, and the step D since the
 /// level before. Sums of blocks get, times `factor`, |D| or D^2 + B^2 / 12 with B = D - D_before (WorkMeter).
-enum class Measured { nothing, steps, absolutes, squares };
+/// `only_absolutes` keeps no D.
+enum class Measured { nothing, steps, only_absolutes, absolutes, squares };
 struct StepOfU {
   Measured what = Measured::nothing;
   double eps = 0;
