@@ -20,12 +20,15 @@ WorkMeter::WorkMeter(const Problem& p, const Scheme& s, const Blocks& blocks, st
       sums_of_block_(sums_of_block(p)) {
   if (!p.forcing && !p.friction.acts()) return;
   for (std::size_t b = first_block; b <= end_block; ++b) begins_.push_back(blocks.begin(b));
-  if (p.friction.acts())
-    of_each_step_ = p.friction.linear_coefficient()   ? Measured::squares
-                    : !p.friction.constant_strength() ? Measured::steps
-                    : needs_step_before()             ? Measured::absolutes
-                                                      : Measured::only_absolutes;
-  else if (!p.steady_forcing)
+  const friction::Friction& f = p.friction;
+  const bool alone = !needs_step_before();  // the work of a force needs the steps, too
+  if (!f.acts())
+    of_each_step_ = alone ? Measured::nothing : Measured::steps;
+  else if (f.linear_coefficient())
+    of_each_step_ = Measured::squares;
+  else if (f.constant_strength())
+    of_each_step_ = alone ? Measured::only_absolutes : Measured::absolutes;
+  else
     of_each_step_ = Measured::steps;
 }
 
