@@ -77,26 +77,26 @@ SLIPFRONT_CLONES void local_part(const PhaseRule& rule, const Arrays& arrays, st
   for (std::size_t i = 0; i < size; ++i) a.step(r, a.now[begin + i] - a.old[begin + i], begin + i);
 }
 
-/// Adds d2 y times `factor`, and d2 y itself if `whole_too`.
-template <bool whole_too>
+template <bool whole_bend>
 [[gnu::always_inline]] inline void add_bends(float factor, const Phase* y, Phase* next, std::size_t size) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) {
     const Phase bend = y[j - 1] + y[j + 1] - 2 * y[j];
-    next[j] += (whole_too ? bend : 0) + whole(factor * number(bend));
+    next[j] += (whole_bend ? bend : 0) + whole(factor * number(bend));
   }
 }
 
-SLIPFRONT_CLONES void add_neighbours(float spread, const Phase* y, Phase* next, std::size_t begin, std::size_t end) {
+/// Adds spread d2 y. Reads y from begin - 1 to end.
+SLIPFRONT_CLONES void add_neighbours(const PhaseRule& rule, const Phase* y, Phase* next, std::size_t begin,
+                                     std::size_t end) {
   const std::size_t size = (end - begin) / lanes * lanes;
-  if (spread > 0.5F)
-    add_bends<true>(spread - 1, y + begin, next + begin, size);
+  if (rule.whole_bend)
+    add_bends<true>(rule.bend, y + begin, next + begin, size);
   else
-    add_bends<false>(spread, y + begin, next + begin, size);
+    add_bends<false>(rule.bend, y + begin, next + begin, size);
 }
 
-/// Sums of D^2 and of B^2 over the sites of each block, by lanes, with D and B of site(j). The last block has whole
-/// vectors, too.
+/// Sums of D^2 and of B^2 over the sites of each block, by lanes, with D and B of site(j).
 template <class Site>
 [[gnu::always_inline]] inline void each_sum(const BlockSums& to, float* sums, const Site& site) {
   for (std::size_t i = 0; i < to.blocks; ++i) {
@@ -200,7 +200,8 @@ PhaseRule::PhaseRule(const Scheme& scheme)
       coupled(static_cast<float>(scheme.rule.coupled)),
       force(static_cast<float>(scheme.rule.force + 2 * scheme.rule.spread * scheme.rule.coupled)),
       damping(static_cast<float>(1 - scheme.rule.before)),
-      spread(static_cast<float>(scheme.rule.spread)) {
+      whole_bend(scheme.rule.spread > 0.5),
+      bend(static_cast<float>(scheme.rule.spread - (whole_bend ? 1 : 0))) {
   for (int k = 0; k < PeriodicForce::terms; ++k) c[k] = static_cast<float>(scheme.rule.f.c[k] * units);
 }
 
@@ -240,7 +241,7 @@ void PhaseTile::advance(const EndConditions& ends, Range sites, const StepOfU& m
   // Ends are those of a chain that is reflected there.
   if (is_end(ends.left)) y_[own_.begin - 1] = y_[own_.begin + 1];
   if (is_end(ends.right)) y_[own_.end] = y_[own_.end - 2];
-  add_neighbours(rule_.spread, y_, old_, begin, end);
+  add_neighbours(rule_, y_, old_, begin, end);
   if (ends.left == EndCondition::fixed) old_[own_.begin] = now_[own_.begin];
   if (ends.right == EndCondition::fixed) old_[own_.end - 1] = now_[own_.end - 1];
   std::swap(now_, old_);

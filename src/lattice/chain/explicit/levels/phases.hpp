@@ -21,12 +21,14 @@ inline constexpr double most_turns_of_phases = 1048576;
 /// LevelRule in single precision, with S in units of phases and d2 y = y_left + y_right - 2 y. In the numbers of
 /// LevelRule, and with D = z - z_old,
 ///     next = z + D - (1 - before) D - (force + 2 spread coupled) S + spread d2 y.
-/// Where spread is near 1, d2 y is added as it is, and only the rest is rounded.
+/// Where spread is near 1, whole d2 y are added, and only (spread - 1) d2 y is rounded.
 struct PhaseRule {
   explicit PhaseRule(const Scheme& scheme);
 
   float c[PeriodicForce::terms];  ///< of S, as a function of z in turns
-  float eps, coupled, force, damping, spread;
+  float eps, coupled, force, damping;
+  bool whole_bend;  ///< whether whole d2 y are added
+  float bend;       ///< spread, less 1 if they are
 };
 
 /// The levels of one tile with phases of 32 bits.
@@ -35,17 +37,17 @@ class PhaseTile {
   /// `room` as in the arrays of the tile in doubles; `measures`: whether steps of u are measured.
   PhaseTile(const Scheme& scheme, std::size_t room, bool measures);
 
-  /// Gets two levels on indices [begin, end), of which those of `own` belong to the tile.
   struct Range {
     std::size_t begin, end;
   };
+  /// Gets two levels on the indices `all`, of which those of `own` belong to the tile.
   void load(const double* before, const double* now, Range all, Range own);
-  /// Computes the next level of sites [left, right), and measures the step to the present one if `measured` says so:
-  /// only Measured::nothing, steps and squares.
+  /// Computes the next level of some sites, and measures the step to the present one as `measured` says: nothing, steps
+  /// or squares.
   void advance(const EndConditions& ends, Range sites, const StepOfU& measured);
   /// Measures the step to the present level.
   void measure(const StepOfU& measured);
-  /// Returns the levels of the sites of the tile.
+  /// Writes the levels of the sites of the tile.
   void store(double* before, double* now) const;
   /// The first of these sites whose z differs by 0.45 turns or more from the next one of them or from the level
   /// before; the end of the tile if there is none. From half a turn on, phases go the shorter way around.
