@@ -19,7 +19,7 @@ using namespace slipfront;
 using namespace slipfront::chain;
 using std::numbers::pi;
 
-/// The same chain in doubles and with phases of 32 bits.
+/// A chain in doubles, and with phases of 32 bits.
 struct Both {
   Both(Problem p, const MotionOf& start) : doubles(p, start), phases((p.phases_of_32_bits = true, p), start) {}
   Both(Problem p, const Motion& start) : doubles(p, start), phases((p.phases_of_32_bits = true, p), start) {}

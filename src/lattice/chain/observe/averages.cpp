@@ -22,8 +22,8 @@ std::vector<double> levels_of(std::vector<double> u) {
   return u;
 }
 
-/// The first of the sites, as many as `sites_beside`, whose interpolation gives the place of a dislocation after site j
-/// of n. They do not depend on the window that a caller has.
+/// The first of the sites, as many as `sites_beside`, whose interpolation gives the position of a dislocation after
+/// site j of n. They do not depend on the window that a caller has.
 constexpr std::size_t sites_beside = 8;
 std::size_t first_next_to(std::size_t j, std::size_t n) {
   return std::min(j < 3 ? 0 : j - 3, n < sites_beside ? 0 : n - sites_beside);

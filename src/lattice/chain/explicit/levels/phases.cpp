@@ -11,7 +11,7 @@
 namespace slipfront::chain {
 namespace {
 
-constexpr double units = 4294967296.0;       // of a turn
+constexpr double units = 4294967296.0;       // a turn has this many
 constexpr std::size_t wide = 2 * lanes;      // numbers of 32 bits in a vector
 constexpr std::size_t ahead = wide - lanes;  // so that the first site of a tile begins a vector
 
@@ -46,7 +46,7 @@ struct Steps {
   float D, B;
 };
 
-/// Where the loops read and write.
+/// The arrays of the loops.
 struct Arrays {
   const Phase* now;
   Phase *old, *y;

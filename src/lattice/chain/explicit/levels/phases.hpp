@@ -25,7 +25,7 @@ inline constexpr double most_turns_of_phases = 1048576;
 struct PhaseRule {
   explicit PhaseRule(const Scheme& scheme);
 
-  float c[PeriodicForce::terms];  ///< of S, as a function of z in turns
+  float c[PeriodicForce::terms];  ///< coefficients of S as a function of z in turns
   float eps, coupled, force, damping;
   bool whole_bend;  ///< whether whole d2 y are added
   float bend;       ///< spread, less 1 if they are
@@ -42,8 +42,7 @@ class PhaseTile {
   };
   /// Gets two levels on the indices `all`, of which those of `own` belong to the tile.
   void load(const double* before, const double* now, Range all, Range own);
-  /// Computes the next level of some sites, and measures the step to the present one as `measured` says: nothing, steps
-  /// or squares.
+  /// Computes the next level of some sites, and measures the step to the present one: nothing, steps or squares.
   void advance(const EndConditions& ends, Range sites, const StepOfU& measured);
   /// Measures the step to the present level.
   void measure(const StepOfU& measured);
@@ -64,7 +63,7 @@ class PhaseTile {
   Phase *now_, *old_;  ///< the levels, which take turns in two of the arrays
   Phase* y_;
   float *shift_, *D_;        ///< z - u at the level before, and the step of u to it
-  std::vector<float> sums_;  ///< of blocks, in a step
+  std::vector<float> sums_;  ///< sums of blocks in one step
   Range own_{};
   std::int64_t first_ = 0;  ///< z of the first site, in units of phases, with its whole turns
 };
