@@ -65,7 +65,7 @@ TEST(ChainKernels, MeasureStepsOfAllSites) {
   const auto D_at = [&](std::size_t j, int level) { return u_at(j, level) - u_at(j, level - 1); };
   for (const auto what : {chains::Measured::only_absolutes, chains::Measured::absolutes, chains::Measured::squares}) {
     SomeSums measured;
-    std::vector<double> u(room), D(room), next(room);
+    std::vector<double> u(room), D(room), next(room), rest(room), y(room);
     for (std::size_t j = 0; j < room; ++j) {
       u[j] = u_at(j, 0);
       D[j] = D_at(j, 0);
@@ -74,7 +74,8 @@ TEST(ChainKernels, MeasureStepsOfAllSites) {
     const double factor = 1.5;
     for (int level = 1; level < 4; ++level) {
       for (std::size_t j = 0; j < room; ++j) next[j] = u_at(j, level);
-      chains::measure_step({what, 0, u.data(), D.data(), D.data(), measured.to, factor}, next.data(), sites);
+      chains::local_part({}, next.data(), next.data(), rest.data(), y.data(), 0, room,
+                         {what, 0, u.data(), D.data(), D.data(), measured.to, factor});
       EXPECT_EQ(u[5], next[5]);
     }
     expect_sums(

@@ -358,12 +358,16 @@ Forces::Range Forces::shortened_at_once(const EndConditions& ends, const Range& 
 
 double Forces::longest_hold() const { return dt_ * dt_ * *problem_.friction.constant_strength() / turn; }
 
-void Forces::begin_level(const EndConditions& ends, const LevelSites& s, Outflow& outflow) const {
-  const auto [begin, end] = range_of(ends, s);
+void Forces::local_part(const LevelSites& s, std::size_t begin, std::size_t end) const {
   if (s.coefficients != nullptr)
     local_part_with_coefficients(scheme_.rule, s.coefficients, s.now, s.before, s.next, s.y, begin, end, s.step);
   else
-    local_part(scheme_.rule, s.now, s.before, s.next, s.y, begin, end, s.step);
+    chain::local_part(scheme_.rule, s.now, s.before, s.next, s.y, begin, end, s.step);
+}
+
+void Forces::begin_level(const EndConditions& ends, const LevelSites& s, Outflow& outflow) const {
+  const auto [begin, end] = range_of(ends, s);
+  local_part(s, begin, end);
   const auto index = [&s](long site) { return static_cast<std::size_t>(site - s.offset); };
   const std::size_t first = index(0), last = index(static_cast<long>(problem_.grid.sites) - 1);
   const EndSites bare = before_neighbours(ends, s.next, first, last);

@@ -192,6 +192,9 @@ class Forces {
   double now(long j) const { return !problem_.forcing ? 0.0 : steady_ ? steady_F_[at(j)] : forcing_(at(j), 0); }
   double rate(long j) const { return steady_ ? 0.0 : (forcing_(at(j), 1) - forcing_(at(j), -1)) / (2 * dt_); }
 
+  /// Computes the part of the next level that depends on the site, on whole vectors [begin, end), and measures the step
+  /// to this level.
+  void local_part(const LevelSites& sites, std::size_t begin, std::size_t end) const;
   /// Computes the next level but for the load and friction that is not linear, which `add_load_and_friction` adds.
   void begin_level(const EndConditions& ends, const LevelSites& sites, Outflow& outflow) const;
   void add_load_and_friction(const EndConditions& ends, const LevelSites& sites) const;

@@ -335,10 +335,10 @@ void Sweep::last_step(const Tile& t, std::size_t count) {
     forces_.next_coefficients(t.offset, own, whole_vectors(last), coefficients_.data());
   }
   if (meter_.of_each_step() != Measured::nothing) {
-    forces_.displacements(s.coefficients, now_, y_.data(), own, whole_vectors(last));
-    StepOfU measured = step(t);
-    take_turns(measured);
-    measure_step(measured, y_.data(), t.width);
+    s.next = spare_;
+    s.step = step(t);
+    take_turns(s.step);
+    forces_.local_part(s, own, whole_vectors(last));
   }
   finish_step(t, s);
 }

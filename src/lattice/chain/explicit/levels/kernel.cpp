@@ -153,21 +153,6 @@ struct FirstLoop {
   }
 };
 
-struct StepTo {
-  StepOfU step;
-  const double* u_next;
-  std::size_t begin, end;
-
-  template <Measured what>
-  [[gnu::always_inline]] void measuring() const {
-    const StepTo l = *this;
-    each_site<what>(
-        l.step, l.begin, l.end, [&l](std::size_t j, std::size_t) __attribute__((always_inline)) {
-          return keep<what>(l.step, l.u_next[j], j);
-        });
-  }
-};
-
 /// Calls loop.measuring<what>().
 template <class Loop>
 [[gnu::always_inline]] inline void as_measured(Measured what, const Loop& loop) {
@@ -189,11 +174,6 @@ SLIPFRONT_CLONES void local_part_with_coefficients(const LevelRule& rule, const 
                                                    const double* old, double* next, double* y, std::size_t begin,
                                                    std::size_t end, const StepOfU& step) {
   as_measured(step.what, FirstLoop<ForceOfCoefficients>{rule, {coefficients}, now, old, next, y, begin, end, step});
-}
-
-SLIPFRONT_CLONES void measure_step(const StepOfU& step, const double* u_next, std::size_t size) {
-  const std::size_t begin = step.to.at;
-  as_measured(step.what, StepTo{step, u_next, begin, begin + (size + lanes - 1) / lanes * lanes});
 }
 
 namespace {

@@ -102,9 +102,6 @@ void displacements(const PeriodicForce& sine, double eps, const double* a2, cons
 /// null if a is 1 everywhere.
 void displacements(const PeriodicForce& f, double eps, const double* coefficients, const double* z, double* u,
                    std::size_t begin, std::size_t end);
-/// Measures the step to u_next, as the first loop does, on the first `size` sites of blocks.
-void measure_step(const StepOfU& step, const double* u_next, std::size_t size);
-
 /// The second loop. It reads y from begin - 1 to end.
 void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end);
 /// Adds them, and then shortens steps as shorten_steps does.
