@@ -73,6 +73,8 @@ class Friction {
   std::optional<double> linear_coefficient(double x, double y) const;
   /// f_0 of the law f = f_0 sign(w).
   std::optional<double> constant_strength() const { return law_->facts().constant_strength; }
+  /// C of the law f = C w^2 sign(w).
+  std::optional<double> square_coefficient() const { return law_->facts().square_coefficient; }
   /// Whether a position at rest can withstand a force.
   bool sticks() const { return at_rest_ > 0; }
   /// The largest force that holds a position at rest at t = 0.

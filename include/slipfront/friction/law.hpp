@@ -233,6 +233,7 @@ class QuadratureAverage : public TrainAverage {
 struct ForceFacts {
   std::optional<double> linear_coefficient = {};  ///< C if f = C w; the time steps of pulse and chain use it
   std::optional<double> constant_strength = {};   ///< f_0 if f = f_0 sign(w)
+  std::optional<double> square_coefficient = {};  ///< C if f = C w^2 sign(w)
   bool steep_at_rest = false;  ///< f rises so steeply, without a jump, that a step through rest would reverse slip
 };
 

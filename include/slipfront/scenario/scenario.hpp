@@ -69,11 +69,11 @@ struct ChainOptions {
   std::optional<double> spacing;  ///< spacing of the grid or lattice, > 0, in the scaled x of the chain
   chain::Model model = chain::Model::sine_gordon;
   chain::End left = chain::End::fixed, right = chain::End::fixed;
-  bool periodic = false;         ///< a ring; `left` and `right` are ignored
-  bool implicit = false;         ///< implicit steps of any length; [loading] always uses them
-  double tolerance = 5e-5;       ///< tolerance of implicit steps, 1e-12 to 0.1
+  bool periodic = false;           ///< a ring; `left` and `right` are ignored
+  bool implicit = false;           ///< implicit steps of any length; [loading] always uses them
+  double tolerance = 5e-5;         ///< tolerance of implicit steps, 1e-12 to 0.1
   bool phases_of_32_bits = false;  ///< single precision: chain::Problem::phases_of_32_bits
-  std::optional<double> window;  ///< averaging window at x = 0, > 0, in the x of the scenario
+  std::optional<double> window;    ///< averaging window at x = 0, > 0, in the x of the scenario
 };
 
 /// [plane], and the initial slip and the formulas of x and y that go with it.

@@ -165,7 +165,8 @@ class Power final : public Law {
   using WhereItVaries = VaryingForce<Power, PowerForce>;
 
   explicit Power(const std::vector<double>& values)
-      : Law({.steep_at_rest = values[1] < 1}),
+      : Law({.square_coefficient = values[1] == 2 ? std::optional(values[0]) : std::nullopt,
+             .steep_at_rest = values[1] < 1}),
         C_(values[0]),
         n_(values[1]),
         loops_(*this, C_, n_),

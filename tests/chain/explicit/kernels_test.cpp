@@ -63,14 +63,15 @@ TEST(ChainKernels, SumOverAllSitesOfTheirBlocks) {
 TEST(ChainKernels, MeasureStepsOfAllSites) {
   const auto u_at = [](std::size_t j, int level) { return std::sin(0.1 * static_cast<double>(j) + 0.7 * level); };
   const auto D_at = [&](std::size_t j, int level) { return u_at(j, level) - u_at(j, level - 1); };
-  for (const auto what : {chains::Measured::only_absolutes, chains::Measured::absolutes, chains::Measured::squares}) {
+  for (const auto what : {chains::Measured::only_absolutes, chains::Measured::absolutes, chains::Measured::squares,
+                          chains::Measured::only_cubes}) {
     SomeSums measured;
     std::vector<double> u(room), D(room), next(room), rest(room), y(room);
     for (std::size_t j = 0; j < room; ++j) {
       u[j] = u_at(j, 0);
       D[j] = D_at(j, 0);
     }
-    const bool squares = what == chains::Measured::squares;
+    const bool squares = what == chains::Measured::squares, cubes = what == chains::Measured::only_cubes;
     const double factor = 1.5;
     for (int level = 1; level < 4; ++level) {
       for (std::size_t j = 0; j < room; ++j) next[j] = u_at(j, level);
@@ -84,7 +85,7 @@ TEST(ChainKernels, MeasureStepsOfAllSites) {
           double sum = 0;
           for (int level = 1; level < 4; ++level) {
             const double moved = D_at(j, level), B = moved - D_at(j, level - 1);
-            sum += squares ? moved * moved + B * B / 12 : std::fabs(moved);
+            sum += squares ? moved * moved + B * B / 12 : cubes ? std::pow(std::fabs(moved), 3) : std::fabs(moved);
           }
           return factor * sum;
         },

@@ -29,7 +29,7 @@ WorkMeter::WorkMeter(const Problem& p, const Scheme& s, const Blocks& blocks, st
   else if (f.constant_strength())
     of_each_step_ = alone ? Measured::only_absolutes : Measured::absolutes;
   else
-    of_each_step_ = Measured::steps;
+    of_each_step_ = alone && f.square_coefficient() ? Measured::only_cubes : Measured::steps;
 }
 
 BlockSums WorkMeter::sums_of(Kind kind, std::vector<double>& energies, std::size_t begin, std::size_t end,
@@ -47,8 +47,10 @@ BlockSums WorkMeter::sums_of(Kind kind, std::vector<double>& energies, std::size
 
 StepOfU WorkMeter::step(std::size_t begin, std::size_t end, std::size_t at) {
   const friction::Friction& f = problem_->friction;
-  const double factor =
-      of_each_step_ == Measured::squares ? *f.linear_coefficient() / dt_ * turn : f.constant_strength().value_or(0);
+  const double rate_of_turn = turn / dt_;
+  const double factor = of_each_step_ == Measured::squares      ? *f.linear_coefficient() * rate_of_turn
+                        : of_each_step_ == Measured::only_cubes ? *f.square_coefficient() * rate_of_turn * rate_of_turn
+                                                                : f.constant_strength().value_or(0);
   return {.what = of_each_step_, .to = sums_of(dissipated, sums, begin, end, at), .factor = factor * energy_of_turn_};
 }
 
@@ -137,7 +139,8 @@ Sweep::Sweep(Slab& slab, Forces& forces, WorkMeter& meter, std::vector<std::size
 
 std::size_t Sweep::bytes(const Forces& forces, const WorkMeter& meter) {
   const Measured what = meter.of_each_step();
-  const std::size_t measuring = what == Measured::nothing ? 0 : what == Measured::only_absolutes ? 1 : 2;
+  const bool keeps_steps = what != Measured::only_absolutes && what != Measured::only_cubes;
+  const std::size_t measuring = what == Measured::nothing ? 0 : keeps_steps ? 2 : 1;
   if (forces.phases_of_32_bits()) return (3 + measuring) * sizeof(Phase);
   return usual_bytes +
          sizeof(double) * ((forces.has_contact() ? PeriodicForce::terms / 2 : 0) + forces.variables() + measuring +

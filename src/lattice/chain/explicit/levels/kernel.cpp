@@ -90,8 +90,9 @@ template <Measured what>
   if constexpr (what == Measured::nothing) return {};
   const double D = u - step.u[j], B = D - step.D_before[j];
   step.u[j] = u;
-  if constexpr (what != Measured::only_absolutes) step.D[j] = D;
+  if constexpr (what != Measured::only_absolutes && what != Measured::only_cubes) step.D[j] = D;
   if constexpr (what == Measured::squares) return {D * D, B * B};
+  if constexpr (what == Measured::only_cubes) return {std::fabs(D) * (D * D)};
   return {std::fabs(D)};
 }
 
@@ -160,6 +161,7 @@ template <class Loop>
   if (what == Measured::steps) return loop.template measuring<Measured::steps>();
   if (what == Measured::only_absolutes) return loop.template measuring<Measured::only_absolutes>();
   if (what == Measured::absolutes) return loop.template measuring<Measured::absolutes>();
+  if (what == Measured::only_cubes) return loop.template measuring<Measured::only_cubes>();
   loop.template measuring<Measured::squares>();
 }
 

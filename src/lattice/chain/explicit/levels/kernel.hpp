@@ -72,9 +72,9 @@ struct BlockSums {
 };
 
 /// The measures of the first loop: u at the level that it starts from, in turns, and the step D since the
-/// level before. Sums of blocks get, times `factor`, |D| or D^2 + B^2 / 12 with B = D - D_before (WorkMeter).
-/// `only_absolutes` keeps no D.
-enum class Measured { nothing, steps, only_absolutes, absolutes, squares };
+/// level before. Sums of blocks get, times `factor`, |D|, |D|^3, or D^2 + B^2 / 12 with B = D - D_before (WorkMeter).
+/// `only_` those that keep no D.
+enum class Measured { nothing, steps, only_absolutes, absolutes, squares, only_cubes };
 struct StepOfU {
   Measured what = Measured::nothing;
   double eps = 0;
