@@ -365,17 +365,17 @@ struct WindowLoops {
 SLIPFRONT_CLONES void WindowLoops::extrapolate(const double* F_t, double* u, double* velocity) const {
   const WindowLoops l = *this;
   const double per_step = 1 / (2 * l.dt), per_dt2 = 1 / (l.dt * l.dt), per_h2 = 1 / (l.h * l.h);
+  const double *const left_next = l.u_next - 1, *const left_old = l.u_old - 1;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < l.size; ++j) {
-    const auto rate = [&l, per_step, j ](long i) __attribute__((always_inline)) {
-      const std::size_t at = j + static_cast<std::size_t>(i);
-      return (l.u_next[at] - l.u_old[at]) * per_step;
-    };
+    const double rate = (l.u_next[j] - l.u_old[j]) * per_step;
+    const double of_left = (left_next[j] - left_old[j]) * per_step;
+    const double of_right = (left_next[j + 2] - left_old[j + 2]) * per_step;
     const double acceleration = (l.u_next[j] - 2 * l.u_now[j] + l.u_old[j]) * per_dt2;
     // u_ttt from the equation of motion: what the central difference needs to be of fourth order.
-    const double jerk = (rate(1) - 2 * rate(0) + rate(-1)) * per_h2 - (l.S_next[j] - l.S_old[j]) * per_step -
-                        l.C * acceleration + F_t[j];
-    const double v = rate(0) - l.dt * l.dt / 6 * jerk;
+    const double jerk =
+        (of_right - 2 * rate + of_left) * per_h2 - (l.S_next[j] - l.S_old[j]) * per_step - l.C * acceleration + F_t[j];
+    const double v = rate - l.dt * l.dt / 6 * jerk;
     u[j] = turn * (l.u_now[j] + l.tau * (v + l.tau / 2 * (acceleration + l.tau / 3 * jerk)));
     velocity[j] = turn * (v + l.tau * (acceleration + l.tau / 2 * jerk));
   }

@@ -292,17 +292,17 @@ struct AddDrive {
 
   template <std::size_t n>
   [[gnu::always_inline]] void of(std::size_t first) const {
-    const double* X[n];
+    const double* left[n];  // X at the neighbour to the left
     double c[n], b[n];
     for (std::size_t s = 0; s < n; ++s) {
-      X[s] = F.X[first + s];
+      left[s] = F.X[first + s] - 1;
       c[s] = own[first + s];
       b[s] = of_neighbours[first + s];
     }
     SLIPFRONT_INDEPENDENT
     for (std::size_t j = 0; j < size; ++j) {
       double sum = next[j];
-      for (std::size_t s = 0; s < n; ++s) sum += c[s] * X[s][j] + b[s] * (X[s][j - 1] + X[s][j + 1]);
+      for (std::size_t s = 0; s < n; ++s) sum += c[s] * left[s][j + 1] + b[s] * (left[s][j] + left[s][j + 2]);
       next[j] = sum;
     }
   }

@@ -79,9 +79,10 @@ SLIPFRONT_CLONES void local_part(const PhaseRule& rule, const Arrays& arrays, st
 
 template <bool whole_bend>
 [[gnu::always_inline]] inline void add_bends(float factor, const Phase* y, Phase* next, std::size_t size) {
+  const Phase *const left = y - 1, *const right = y + 1;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) {
-    const Phase bend = y[j - 1] + y[j + 1] - 2 * y[j];
+    const Phase bend = left[j] + right[j] - 2 * y[j];
     next[j] += (whole_bend ? bend : 0) + whole(factor * number(bend));
   }
 }
