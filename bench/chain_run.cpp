@@ -1,8 +1,7 @@
 // Runs the lattice of Eq. (1) from a given state, for peers/lammps_chain.py: with slipfront's chain, or with leapfrog
 // as a plain loop with the sine of the C library. Usage: chain_run FILE SPACING STEP STEPS chain|single|plain, where
-// single means phases of 32 bits. FILE contains
-// u, then u_t, of every site as binary doubles. The program writes u at the end to FILE.out, and prints the processor
-// time of the steps in seconds.
+// single means phases of 32 bits. FILE contains u, then u_t, of every site as binary doubles. The program writes u at
+// the end to FILE.out, and prints the processor time of the steps in seconds.
 
 #include <cmath>
 #include <cstdio>

@@ -62,13 +62,13 @@ class RunObserver {
   double least_width(std::size_t i) const;
   BestAverage average_at_origin(const Sites& sites, double time) const;
   void widen_errors(Averages& averages, double time) const;
-  /// Returns the slip velocities of windows of the least width, in which observers look for fronts.
   /// The means over the window of the slip of a cell, and over that of the least width for its velocity and stress. A
   /// short chain keeps those of all cells.
   struct CellMeans {
     SiteWeights slip, smooth;
   };
   CellMeans means_of_cell(std::size_t i) const;
+  /// Returns the slip velocities of windows of the least width, in which observers look for fronts.
   std::vector<double> add_profile(const Sites& sites, output::Snapshot& snapshot, double time) const;
   void add_origin(const Sites& sites, output::Snapshot& snapshot, double time) const;
   void add_energy(output::Snapshot& snapshot, const Totals& now) const;

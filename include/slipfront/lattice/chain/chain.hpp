@@ -36,7 +36,7 @@ struct Window {
   std::vector<double> effective_stress;  ///< 1 - p, that over the normal stress; 1 without pores; at the present time
   std::vector<double> energy = {};       ///< u_t^2 / 2 + u_x^2 / 2 + a^2 (1 - cos u); of Sites::known only
 
-  /// Those of every window.
+  /// The columns that every window has.
   static constexpr std::vector<double> Window::*columns[] = {
       &Window::x, &Window::u, &Window::velocity, &Window::stress, &Window::contact_squared, &Window::effective_stress};
 };

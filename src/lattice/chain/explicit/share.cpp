@@ -247,20 +247,18 @@ std::pair<double, double> RankSites::site(long j) const {
 
 void RankSites::copy_levels(long first, std::size_t size, double* before, double* now) const {
   const long end = first + static_cast<long>(size);
-  const auto copy = [&](long from, long to) {
+  const auto one_by_one = [&](long from, long to) {
     for (long j = from; j < to; ++j) std::tie(now[j - first], before[j - first]) = site(j);
   };
-  long at = first;
+  one_by_one(first, std::min(end, static_cast<long>(begin_)));
   for (const Slab& slab : slabs_) {
-    const long from = static_cast<long>(slab.begin()), to = std::min(end, from + static_cast<long>(slab.size()));
-    copy(at, std::min(from, end));
-    if (from > at) at = std::min(from, end);
-    if (at >= to) continue;
-    std::copy_n(slab.now() + (at - from), to - at, now + (at - first));
-    std::copy_n(slab.old() + (at - from), to - at, before + (at - first));
-    at = to;
+    const auto begin = static_cast<long>(slab.begin());
+    const long from = std::max(first, begin), to = std::min(end, begin + static_cast<long>(slab.size()));
+    if (from >= to) continue;
+    std::copy_n(slab.now() + (from - begin), to - from, now + (from - first));
+    std::copy_n(slab.old() + (from - begin), to - from, before + (from - first));
   }
-  copy(at, end);
+  one_by_one(std::max(first, static_cast<long>(end_)), end);
 }
 
 Levels RankSites::levels(std::size_t begin, std::size_t end) const {

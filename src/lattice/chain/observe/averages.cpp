@@ -14,19 +14,21 @@
 #include "slipfront/theory/train.hpp"
 
 namespace slipfront::chain {
+
+double level_of(double u) { return u / turn - 0.5; }
+
 namespace {
 
-/// u / 2 pi - 1/2: dislocations are at whole numbers.
 std::vector<double> levels_of(std::vector<double> u) {
-  for (double& v : u) v = v / turn - 0.5;
+  for (double& v : u) v = level_of(v);
   return u;
 }
 
-/// The first of the sites, as many as `sites_beside`, whose interpolation gives the position of a dislocation after
-/// site j of n. They do not depend on the window that a caller has.
-constexpr std::size_t sites_beside = 8;
+/// The position of a dislocation is interpolated between this many sites around it, whatever window a caller has.
+constexpr std::size_t interpolated_sites = 8;
+/// The first of them for a dislocation between site j and the next of n sites.
 std::size_t first_next_to(std::size_t j, std::size_t n) {
-  return std::min(j < 3 ? 0 : j - 3, n < sites_beside ? 0 : n - sites_beside);
+  return std::min(j < 3 ? 0 : j - 3, n < interpolated_sites ? 0 : n - interpolated_sites);
 }
 
 /// Adds those between values j and j + 1 of `levels`; value 0 is at x.
@@ -62,7 +64,7 @@ std::vector<Dislocation> dislocations_after(const Sites& chain, std::size_t j, d
   const std::size_t n = p.grid.sites;
   const bool seam = p.boundary.periodic && j + 1 == n;
   const std::size_t first = seam ? n - 4 : first_next_to(j, n);
-  std::vector<double> u = chain.window(first, std::min(first + sites_beside, n), time).u;
+  std::vector<double> u = chain.window(first, std::min(first + interpolated_sites, n), time).u;
   if (seam)
     for (const double v : chain.window(0, 4, time).u) u.push_back(v - turn * static_cast<double>(p.boundary.charge));
   std::vector<Dislocation> found;
@@ -76,7 +78,7 @@ std::vector<Dislocation> dislocations(const Sites& chain, double time) {
   for_own_blocks(chain, 4, time, [&](const Window& w, std::size_t begin, std::size_t end) {
     const std::vector<double> levels = levels_of(w.u);
     for (std::size_t j = begin; j < std::min(end, grid.sites - 1); ++j) {
-      const std::size_t first = first_next_to(j, grid.sites), size = std::min(sites_beside, grid.sites);
+      const std::size_t first = first_next_to(j, grid.sites), size = std::min(interpolated_sites, grid.sites);
       find(std::span(levels).subspan(first - w.begin, size), j - first, grid.x(first), grid.spacing, found);
     }
   });

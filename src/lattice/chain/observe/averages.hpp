@@ -22,13 +22,16 @@ std::vector<Dislocation> dislocations(const Sites& chain);
 /// (all) u of all sites at `time`. Only rank 0 gets them.
 std::vector<double> displacements(const Sites& chain, double time);
 
-/// (all) Those between site j and the next, which around a ring may be the first.
+/// u / 2 pi - 1/2. Where it passes a whole number, there is a dislocation.
+double level_of(double u);
+
+/// (all) The dislocations between site j and the next, which around a ring may be the first.
 std::vector<Dislocation> dislocations_after(const Sites& chain, std::size_t j, double time);
 
 /// (all) Calls measure(window, begin, end) for each block of this rank, in order. The window has its sites [begin, end)
-/// at `time`, and `beside` more on either side as far as there are.
+/// at `time`, and `more` sites on either side, or as many as the chain has there.
 template <class Measure>
-void for_own_blocks(const Sites& chain, std::size_t beside, double time, const Measure& measure) {
+void for_own_blocks(const Sites& chain, std::size_t more, double time, const Measure& measure) {
   constexpr std::size_t most = 2048;  // sites of a window, which stay in the cache, or one block
   const Ranks& ranks = chain.ranks();
   const Blocks blocks{chain.problem().grid.sites};
@@ -38,8 +41,8 @@ void for_own_blocks(const Sites& chain, std::size_t beside, double time, const M
     const std::size_t first = blocks.begin(block);
     std::size_t after = block + 1;
     while (after < end && blocks.begin(after + 1) - first <= most) ++after;
-    const Window window = chain.own_window(first < beside ? 0 : first - beside,
-                                           std::min(blocks.begin(after) + beside, blocks.sites), time);
+    const Window window =
+        chain.own_window(first < more ? 0 : first - more, std::min(blocks.begin(after) + more, blocks.sites), time);
     for (; block < after; ++block) measure(window, blocks.begin(block), blocks.begin(block + 1));
   }
 }

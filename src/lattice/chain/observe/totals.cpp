@@ -19,16 +19,13 @@ std::array<double*, sums> summed(Totals& t, double& dislocations) {
   return {&t.kinetic, &t.elastic, &t.substrate, &t.momentum, &dislocations};
 }
 
-/// The number of dislocations to the right of a displacement u, if there are none at the left.
-double level(double u) { return std::floor(u / turn - 0.5); }
-
 /// Adds sites [begin, end), seen in a window that has two more on either side where there are.
 void add(const Sites& chain, const Window& w, std::size_t begin, std::size_t end, Totals& t, double& dislocations) {
   const Problem& p = chain.problem();
   const double h = p.grid.spacing;
   const std::size_t n = p.grid.sites, low = w.begin;
   const auto u = [&](std::size_t j) { return w.u[j - low]; };
-  double next_level = level(u(begin));
+  double next_level = std::floor(level_of(u(begin)));
   for (std::size_t j = begin; j < end; ++j) {
     const double weight = (j == 0 || j + 1 == n) && !p.boundary.periodic ? h / 2 : h;
     const double velocity = w.velocity[j - low], cosine = std::cos(u(j));
@@ -37,8 +34,8 @@ void add(const Sites& chain, const Window& w, std::size_t begin, std::size_t end
     t.momentum += weight * velocity * w.stress[j - low];
     t.elastic += h * elastic_energy(u, j, n, h, p.model);
     if (j + 1 >= n) continue;
-    const double passed = std::fabs(level(u(j + 1)) - next_level);
-    next_level = level(u(j + 1));
+    const double level = std::exchange(next_level, std::floor(level_of(u(j + 1)))),
+                 passed = std::fabs(next_level - level);
     t.steepest = std::fmax(t.steepest, std::fabs(u(j + 1) - u(j)));
     if (!(passed > 0)) continue;
     dislocations += passed;
@@ -49,10 +46,10 @@ void add(const Sites& chain, const Window& w, std::size_t begin, std::size_t end
 
 /// Adds the interval of a ring from its last site, where u is `last`, to its first.
 void close_ring(const Problem& p, double first, double last, Totals& t, double& dislocations) {
-  const double rise = first - turn * static_cast<double>(p.boundary.charge) - last;
+  const double next = first - turn * static_cast<double>(p.boundary.charge), rise = next - last;
   t.elastic += rise * rise / (2 * p.grid.spacing);
   t.steepest = std::fmax(t.steepest, std::fabs(rise));
-  const double passed = std::fabs(level(last + rise) - level(last));
+  const double passed = std::fabs(std::floor(level_of(next)) - std::floor(level_of(last)));
   dislocations += passed;
   if (passed > 0) t.last_site = p.grid.sites - 1;
   if (!t.first_site) t.first_site = t.last_site;

@@ -21,14 +21,14 @@ inline constexpr double most_turns_of_phases = 1048576;
 /// LevelRule in single precision, with S in units of phases and d2 y = y_left + y_right - 2 y. In the numbers of
 /// LevelRule, and with D = z - z_old,
 ///     next = z + D - (1 - before) D - (force + 2 spread coupled) S + spread d2 y.
-/// Where spread is near 1, whole d2 y are added, and only (spread - 1) d2 y is rounded.
+/// If spread is above 1/2, d2 y is added exactly, and only (spread - 1) d2 y is rounded.
 struct PhaseRule {
   explicit PhaseRule(const Scheme& scheme);
 
   float c[PeriodicForce::terms];  ///< coefficients of S as a function of z in turns
   float eps, coupled, force, damping;
-  bool whole_bend;  ///< whether whole d2 y are added
-  float bend;       ///< spread, less 1 if they are
+  bool whole_bend;  ///< whether d2 y is added exactly
+  float bend;       ///< spread, less 1 if it is
 };
 
 /// The levels of one tile with phases of 32 bits.

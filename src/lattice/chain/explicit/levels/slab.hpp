@@ -45,15 +45,15 @@ template <class Number>
 class AlignedArray {
  public:
   explicit AlignedArray(std::size_t size = 0)
-      : data_(static_cast<Number*>(::operator new[]((size + beyond) * sizeof(Number), std::align_val_t{64}))) {
-    std::fill_n(data_.get(), size + beyond, Number{});
+      : data_(static_cast<Number*>(::operator new[]((size + unused) * sizeof(Number), std::align_val_t{64}))) {
+    std::fill_n(data_.get(), size + unused, Number{});
   }
   Number* data() { return data_.get(); }
   const Number* data() const { return data_.get(); }
 
  private:
-  /// Room for what a processor reads ahead, which else may be lines that another thread writes.
-  static constexpr std::size_t beyond = 1024 / sizeof(Number);
+  /// Processors load memory ahead of a loop. Other threads must not write there.
+  static constexpr std::size_t unused = 1024 / sizeof(Number);
   struct Free {
     void operator()(Number* p) const { ::operator delete[](p, std::align_val_t{64}); }
   };
