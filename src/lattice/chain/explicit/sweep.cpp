@@ -279,8 +279,7 @@ void Sweep::advance_phases(const Tile& t, std::size_t count) {
     if (i == 0 && measured.what != Measured::nothing) measured.what = Measured::steps;  // it was measured before
     phases_->advance(t.ends, {s.left, s.right}, measured);
   }
-  if (meter_.of_each_step() != Measured::nothing) phases_->measure(step(t));
-  phases_->store(before_, now_);
+  phases_->finish(before_, now_, step(t));
 }
 
 /// The measure of the first loop for the steps of a tile.

@@ -101,22 +101,32 @@ SLIPFRONT_CLONES void add_neighbours(const PhaseRule& rule, const Phase* y, Phas
 template <class Site>
 [[gnu::always_inline]] inline void each_sum(const BlockSums& to, float* sums, const Site& site) {
   for (std::size_t i = 0; i < to.blocks; ++i) {
-    const std::size_t until = to.begin(i + 1), whole = until / lanes * lanes;
+    const std::size_t begin = to.begin(i), until = to.begin(i + 1);
+    const bool half_first = to.half_first && i == 0, half_last = to.half_last && i + 1 == to.blocks;
     float of_D[wide] = {}, of_B[wide] = {};
     const auto add = [&](std::size_t j, std::size_t k, float weight) __attribute__((always_inline)) {
       const Steps steps = site(j + k);
       of_D[k] += weight * steps.D * steps.D;
       of_B[k] += weight * steps.B * steps.B;
     };
-    std::size_t j = to.begin(i);
-    for (; j + wide <= whole; j += wide) {
+    const auto add_odd = [&](std::size_t j) __attribute__((always_inline)) {
+      SLIPFRONT_INDEPENDENT
+      for (std::size_t k = 0; k < lanes; ++k) {
+        const bool half = (half_first && j + k == begin) || (half_last && j + k + 1 == until);
+        add(j, k, j + k >= until ? 0.0F : half ? 0.5F : 1.0F);
+      }
+    };
+    std::size_t j = begin;
+    if (half_first) {
+      add_odd(j);
+      j += lanes;
+    }
+    const std::size_t even = (half_last ? until - 1 : until) / lanes * lanes;
+    for (; j + wide <= even; j += wide) {
       SLIPFRONT_INDEPENDENT
       for (std::size_t k = 0; k < wide; ++k) add(j, k, 1);
     }
-    for (; j < until; j += lanes) {
-      SLIPFRONT_INDEPENDENT
-      for (std::size_t k = 0; k < lanes; ++k) add(j, k, j + k < until ? 1.0F : 0.0F);
-    }
+    for (; j < until; j += lanes) add_odd(j);
     std::memcpy(sums + 2 * wide * i, of_D, sizeof of_D);
     std::memcpy(sums + 2 * wide * i + wide, of_B, sizeof of_B);
   }
@@ -145,15 +155,6 @@ SLIPFRONT_CLONES void local_part_with_work(const PhaseRule& rule, const Arrays& 
       to, sums, [&](std::size_t j) __attribute__((always_inline)) {
         const Phase moved = a.now[j] - a.old[j];
         return a.keep(r, moved, a.step(r, moved, j), j);
-      });
-}
-
-SLIPFRONT_CLONES void work_of_step(const PhaseRule& rule, const Arrays& arrays, const BlockSums& to, float* sums) {
-  const PhaseRule r = rule;
-  const Arrays a = arrays;
-  each_sum(
-      to, sums, [&](std::size_t j) __attribute__((always_inline)) {
-        return a.keep(r, a.now[j] - a.old[j], force(r, a.now[j]), j);
       });
 }
 
@@ -236,7 +237,7 @@ void PhaseTile::advance(const EndConditions& ends, Range sites, const StepOfU& m
     local_part(rule_, arrays, begin, end);
   } else {
     local_part(rule_, arrays, begin, own_.begin);
-    measure_part<true>(measured);
+    measured_part(measured);
     local_part(rule_, arrays, (own_.end + lanes - 1) / lanes * lanes, end);
   }
   // Ends are those of a chain that is reflected there.
@@ -249,39 +250,23 @@ void PhaseTile::advance(const EndConditions& ends, Range sites, const StepOfU& m
   first_ += static_cast<std::int32_t>(now_[own_.begin] - old_[own_.begin]);
 }
 
-void PhaseTile::measure(const StepOfU& measured) { measure_part<false>(measured); }
-
-/// Measures the step to this level, and computes the part of the next that depends on the site if it `moves`.
-template <bool moves>
-void PhaseTile::measure_part(const StepOfU& measured) {
-  const Arrays arrays{now_, old_, y_, shift_, D_};
-  const BlockSums& to = measured.to;
+/// Computes the local part of the sites of the tile, and measures the step to this level.
+void PhaseTile::measured_part(const StepOfU& measured) {
   const double factor = measured.what == Measured::squares ? measured.factor / (units * units) : 0;
-  sums_.resize(2 * wide * to.blocks);
-  const float before_first = D_[own_.begin], before_last = D_[own_.end - 1];
-  if constexpr (moves)
-    local_part_with_work(rule_, arrays, to, sums_.data());
-  else
-    work_of_step(rule_, arrays, to, sums_.data());
-  add_sums(sums_.data(), factor, to);
-  const auto take_half = [&](std::size_t j, float before, double* sums) {
-    const auto D = static_cast<double>(D_[j]), B = static_cast<double>(D_[j] - before);
-    *sums -= factor / 2 * (D * D + B * B / 12);
-  };
-  if (to.half_first) take_half(own_.begin, before_first, to.sums);
-  if (to.half_last) take_half(own_.end - 1, before_last, to.sums + (to.blocks - 1) * to.stride);
+  sums_.resize(2 * wide * measured.to.blocks);
+  local_part_with_work(rule_, {now_, old_, y_, shift_, D_}, measured.to, sums_.data());
+  add_sums(sums_.data(), factor, measured.to);
 }
 
-void PhaseTile::store(double* before, double* now) const {
+void PhaseTile::finish(double* before, double* now, const StepOfU& measured) {
   const std::size_t begin = own_.begin;
   to_turns(first_, now_ + begin, old_ + begin, before + begin, now + begin, own_.end - begin);
-}
-
-std::size_t PhaseTile::first_not_followed() const {
-  if (follow(now_, old_, own_.begin, own_.end - 1)) return own_.end;
-  std::size_t j = own_.begin;
-  while (follow(now_, old_, j, j + 1)) ++j;
-  return j;
+  not_followed_ = begin;
+  if (follow(now_, old_, begin, own_.end - 1))
+    not_followed_ = own_.end;
+  else
+    while (follow(now_, old_, not_followed_, not_followed_ + 1)) ++not_followed_;
+  if (measured.what != Measured::nothing) measured_part(measured);
 }
 
 }  // namespace slipfront::chain

@@ -44,17 +44,14 @@ class PhaseTile {
   void load(const double* before, const double* now, Range all, Range own);
   /// Computes the next level of some sites, and measures the step to the present one: nothing, steps or squares.
   void advance(const EndConditions& ends, Range sites, const StepOfU& measured);
-  /// Measures the step to the present level.
-  void measure(const StepOfU& measured);
-  /// Writes the levels of the sites of the tile.
-  void store(double* before, double* now) const;
-  /// The first of these sites whose z differs by 0.45 turns or more from the next one of them or from the level
-  /// before; the end of the tile if there is none. From half a turn on, phases go the shorter way around.
-  std::size_t first_not_followed() const;
+  /// Writes the levels of the sites of the tile, and then measures the step to the last one.
+  void finish(double* before, double* now, const StepOfU& measured);
+  /// The first of these sites whose z differed by 0.45 turns or more from the next one of them or from the level
+  /// before; the end of the tile if there was none. From half a turn on, phases go the shorter way around.
+  std::size_t first_not_followed() const { return not_followed_; }
 
  private:
-  template <bool moves>
-  void measure_part(const StepOfU& measured);
+  void measured_part(const StepOfU& measured);
 
   PhaseRule rule_;
   bool measures_;
@@ -65,6 +62,7 @@ class PhaseTile {
   float *shift_, *D_;        ///< z - u at the level before, and the step of u to it
   std::vector<float> sums_;  ///< sums of blocks in one step
   Range own_{};
+  std::size_t not_followed_ = 0;
   std::int64_t first_ = 0;  ///< z of the first site, in units of phases, with its whole turns
 };
 
